@@ -27,9 +27,10 @@ from fatigue.point.written import in_the_way
 from fatigue.report.files.browser import find_browser
 from fatigue.report.files.png import INSTEAD
 from fatigue.report.inputs import find_inputs
-from fatigue.results import ASSESSED, finished_result
+from fatigue.results import finished_result
 from fatigue.stages import stage
 
+READ = ("nodes", "damage", "welds", "band")  # tables; the last one is not in every result
 ENDINGS = (".html", ".png")
 
 
@@ -74,7 +75,7 @@ def point(
     named = None if case_file is None else given_path(case_file, "case_file")
     refuse(CaseError, [*_senseless(order=order, node=node, part=part, threads=threads), *_no_format(file)])
     stage("reading the result and its case")
-    record = finished_result(folder, ASSESSED, ("nodes", "damage", "welds"), no_lock=no_lock)
+    record = finished_result(folder, READ, READ, no_lock=no_lock)
     station = find_station(folder, weld, order=order, node=node, part=part)
     face = station.face(surface)
     if file is not None:

@@ -298,11 +298,10 @@ def test_inputs_that_changed_are_refused(tmp_path):
 def test_a_table_that_was_edited_is_refused(tmp_path):
     """The numbers of a point are not compared with those of somebody else."""
     folder = result_of(small_case(seconds=6.0).write(tmp_path / "case"), tmp_path / "result")
-    nodes = stored(folder)
-    nodes["damage_per_km"] *= 2.0
-    nodes.to_parquet(folder / "nodes.parquet")
-    with pytest.raises(DataError, match=r"nodes\.parquet"):
-        point(folder, "A")
+    for name in ("band", "nodes"):
+        stored(folder, name).head(3).to_parquet(folder / f"{name}.parquet")
+        with pytest.raises(DataError, match=rf"{name}\.parquet"):
+            point(folder, "A")
 
 
 def test_without_a_browser_a_picture_is_refused_before_the_work(results, tmp_path, monkeypatch):
