@@ -25,7 +25,7 @@ from fatigue.report.sections.point.worst_cycles import most_damaging
 from fatigue.report.sections.why import Why
 from fatigue.report.variants import assumptions_of, law_of
 from fatigue.results import read_rows, read_table, read_welds, row_count, rows_of_welds
-from fatigue.results.beside.life_band import Bands, read_bands
+from fatigue.results.beside.life_band import BandOfPoint, Bands, read_bands
 from fatigue.spectrum.moments import point_moments
 from fatigue.why.evidence import Evidence
 from fatigue.why.points import Points, points_of
@@ -96,6 +96,11 @@ class Gathered:
         """Bands that hold that of its life: those of the result, with the survival of its line, else that of now."""
         has_it = self.bands_stored is not None and self.bands_stored.of(*self.key) is not None
         return self.bands_stored if has_it and not self.is_screened else self.bands_counted
+
+    @property
+    def band(self) -> BandOfPoint | None:
+        """Band of its life."""
+        return None if self.bands is None else self.bands.of(*self.key)
 
     @property
     def key(self) -> tuple[str, int, int, str]:

@@ -9,11 +9,10 @@ import pandas as pd
 
 from fatigue.point.page.checked import checks_of
 from fatigue.point.page.gathered import Gathered
-from fatigue.point.page.notes import notes_of
+from fatigue.point.page.notes import facts_of_band, notes_of
 from fatigue.point.page.tables import worst_cycles
 from fatigue.report.of_record import target_of, weights_of
 from fatigue.report.sections import weld_tables
-from fatigue.report.sections.beside.life_band import band_facts
 from fatigue.report.sections.beside.shear import shear_facts
 from fatigue.report.sections.checks import Recomputed
 from fatigue.report.sections.curves import curve_words
@@ -155,13 +154,13 @@ def summary_of(found: Gathered) -> PointSummary:
         stored=found.stored.to_dict(),
         counted=found.counted.to_dict(),
         notes=notes_of(found),
-        facts=(*facts, *band_facts(found.bands, row), *shear_facts(row), ("Target", _target(row, target))),
+        facts=(*facts, *facts_of_band(found), *shear_facts(row), ("Target", _target(row, target))),
         events=found.damage.assign(share=damage / total if total > 0.0 else 0.0),
         cycles=worst_cycles(found),
         cycle_count=found.cycle_rows,
         finding=said[0] if said else None,
         verdicts=tuple(found.why.reasons()),
-        band=None if found.bands is None else found.bands.of(*found.key),
+        band=found.band,
         checks=tuple(checks_of(found)),
         target_km=target,
     )

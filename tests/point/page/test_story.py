@@ -12,8 +12,10 @@ from fatigue.assess import assess
 from fatigue.diagnose import diagnose
 from fatigue.errors import CaseError, DataError
 from fatigue.point.page.story import point
+from fatigue.report.wording import number
 from fatigue.results import json_ready
 from tests.point.cases import CASES, result_of
+from tests.report.reading import Page
 from tests.shear_at_toe import shear_at_toe
 from tests.small_case import small_case
 
@@ -145,14 +147,14 @@ def screened(tmp_path_factory):
     return folder / "screened", result_of(path, folder / "counted")
 
 
-def test_a_screened_point_is_counted_now(screened):
+def test_a_screened_point_is_counted_now(screened, tmp_path):
     """Its numbers are those of a job without screening; the bound stands beside, and is above them."""
     folder, counted = screened
     bounded = stored(folder)
     bounded = bounded[bounded["screened"] != ""]
     assert len(bounded)
     row = bounded.iloc[len(bounded) // 2]
-    found = point(folder, row["weld"], order=row["order"], surface=row["surface"])
+    found = point(folder, row["weld"], order=row["order"], surface=row["surface"], output=tmp_path / "page.html")
     truth = row_of(counted, row["weld"], row["order"], row["surface"])
     assert found.agrees
     assert found.checks[0].what == "damage counted now, above the bound of the result"
@@ -163,7 +165,15 @@ def test_a_screened_point_is_counted_now(screened):
     said = " ".join(found.notes)
     assert "did not count this point" in said
     assert row["screened"] in said
-    assert f"{row['damage_per_km'] / truth['damage_per_km']:.2f}"[:3] in said
+    assert f"the bound is {number(row['damage_per_km'] / truth['damage_per_km'])} times as much" in said
+    page = Page((tmp_path / "page.html").read_text(encoding="utf-8"))
+    mark = page.figures["along"]["data"][-1]
+    assert mark["name"] == f"this point, {row['surface']} face"
+    assert mark["y"][0] == pytest.approx(min(truth["life_km"], 1e12))
+    assert page.tables["numbers"][0][1:3] == ["bound in the result", "counted now"]
+    numbers = {cells[0]: cells for cells in page.tables["numbers"]}
+    assert numbers["damage_per_km"][1:3] == [number(row["damage_per_km"]), number(truth["damage_per_km"])]
+    assert numbers["multiaxial_bound"][2] == "–"
 
 
 def test_nothing_damages(tmp_path):
