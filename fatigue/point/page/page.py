@@ -14,6 +14,7 @@ from fatigue.report import figures, wording
 from fatigue.report.of_record import mode_names, target_of, weights_of
 from fatigue.report.page_text import page_text
 from fatigue.report.sections import weld_tables
+from fatigue.report.sections.beside.checks import weld_checks
 from fatigue.report.sections.beside.life_band import band_sentence
 from fatigue.report.sections.beside.shear import shear_facts
 from fatigue.report.sections.curves import curve_words, figure_mark
@@ -104,6 +105,7 @@ def _tables(found: Gathered) -> dict[str, Any]:
         "domains": domains_table(found, events),
         "reasons": [reason for reason in why.reasons() if reason[0] in events],
         "variants": weld_tables.variant_table("variants", of_cycles, life, km_per_year),
+        "beside": weld_checks("checks-beside", found.beside, found.station.weld),
         "numbers": number_table(found),
         "assumptions": assumptions(record),
         "checks": checks_of(found),

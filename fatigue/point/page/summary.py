@@ -39,6 +39,7 @@ class PointSummary:
     cycles : the most damaging cycles with ``share`` of the damage
     cycle_count : how many cycles and half cycles one pass of every event has
     finding : what makes the damage; None where nothing does
+    beside : rows of ``checks.parquet`` at its place, as the assessment made them
     verdicts : event, verdict on the frequency domain, reason
     band : of its life; None where it has none
     checks : what was compared with the result
@@ -60,6 +61,7 @@ class PointSummary:
     cycles: pd.DataFrame
     cycle_count: int
     finding: Finding | None
+    beside: pd.DataFrame
     verdicts: tuple[tuple[str, str, str], ...]
     band: BandOfPoint | None
     checks: tuple[Recomputed, ...]
@@ -85,6 +87,7 @@ class PointSummary:
             "frequency_domain": [
                 {"event": event, "verdict": verdict, "reason": reason} for event, verdict, reason in self.verdicts
             ],
+            "checks_beside": self.beside.to_dict("records"),
             "checks": [asdict(check) | {"agrees": check.agrees} for check in self.checks],
             "agrees": self.agrees,
             "file": None if self.file is None else str(self.file),
@@ -159,6 +162,7 @@ def summary_of(found: Gathered) -> PointSummary:
         cycles=worst_cycles(found),
         cycle_count=found.cycle_rows,
         finding=said[0] if said else None,
+        beside=found.beside.rows,
         verdicts=tuple(found.why.reasons()),
         band=found.band,
         checks=tuple(checks_of(found)),
