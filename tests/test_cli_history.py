@@ -25,8 +25,11 @@ def test_it_writes_and_says_what(small_result, tmp_path):
     table = pd.read_csv(tmp_path / "a.csv")
     lines = done.stdout.splitlines()
     assert lines[0] == f"{tmp_path / 'a.csv'}: {len(table)} samples of 3 events at the instants that were counted"
-    assert lines[1] == "Weld A, part 1, order 3, node 102"
-    assert lines[3].split()[:5] == ["event", "samples", "from_s", "to_s", "upsample"]
+    assert lines[1] == "Weld A, part 1, order 3, node 102; stresses in MPa"
+    assert lines[3].split() == [
+        "event", "samples", "from_s", "to_s", "upsample",
+        "top_min", "top_max", "top_range", "bottom_min", "bottom_max", "bottom_range",
+    ]  # fmt: skip
     assert lines[4].split()[:2] == ["sine", "2400"]
     largest = pd.read_parquet(small_result / "damage.parquet").query("weld == 'A' and order == 3 and surface == 'top'")
     assert float(lines[4].split()[7]) == pytest.approx(largest["max_range_MPa"].iloc[0], rel=1e-3)

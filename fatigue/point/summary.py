@@ -85,22 +85,19 @@ class WrittenHistory:
 
     def as_text(self) -> str:
         """Text for people."""
-        head = ("event", "samples", "from_s", "to_s", "upsample", *(f"{q}_{f}_MPa" for f in FACES for q in _SHOWN))
+        head = ("event", "samples", "from_s", "to_s", "upsample", *(f"{face}_{q}" for face in FACES for q in _SHOWN))
         rows = [head, *(_cells(event) for event in self.events)]
         widths = [max(len(row[i]) for row in rows) for i in range(len(head))]
         named, *numbers = widths
         events = f"{len(self.events)} event{'s' * (len(self.events) != 1)}"
-        no_toe = [face for face, toe in zip(FACES, self.station.toe, strict=True) if not toe]
+        toes = zip(FACES, self.station.toe, strict=True)
+        bare = "".join(f" (no weld toe on the {face} face)" for face, toe in toes if not toe)
         return "\n".join(
             [
                 f"{self.file}: {self.samples} samples of {events} at {INSTANTS[self.instants]}",
-                f"{str(self.station)[:1].upper()}{str(self.station)[1:]}"
-                + (f" (no weld toe on the {no_toe[0]} face)" if no_toe else ""),
+                f"W{str(self.station)[1:]}{bare}; stresses in MPa",
                 "",
-                *(
-                    "  ".join([row[0].ljust(named), *(c.rjust(w) for c, w in zip(row[1:], numbers, strict=True))])
-                    for row in rows
-                ),
+                *("  ".join([row[0].ljust(named), *map(str.rjust, row[1:], numbers)]) for row in rows),
                 "",
                 "Columns: " + ", ".join(self.columns),
                 "Stress factors and constants are included; bending and twist are those of the top face.",

@@ -241,3 +241,17 @@ def test_a_result_of_an_older_version(small_result, tmp_path):
     folder = without_hashes(shutil.copytree(small_result, tmp_path / "result"))
     case = small_result.parent / "case" / "case.toml"
     assert len(fatigue.open_result(folder, case_file=case).history("A", 3)) > 0
+
+
+def test_a_result_that_was_replaced(tmp_path):
+    """What was opened before says that its tables are of another result; opened anew it is the new one."""
+    case = plain(2.0)
+    folder = result_of(case.write(tmp_path / "case"), tmp_path / "result")
+    result = fatigue.open_result(folder)
+    assert len(result.history("A", 2, event="sine"))
+    case.events[1]["stress_factor"] = 2.0
+    result_of(case.write(tmp_path / "case"), tmp_path / "result")
+    for ask in (lambda: result.nodes, lambda: result.history("A", 2), lambda: result.figure("sn", "A")):
+        with pytest.raises(DataError, match=r"nodes\.parquet"):
+            ask()
+    assert fatigue.open_result(folder).events["stress_factor"].tolist() == [1.0, 2.0, 1.0]
