@@ -114,7 +114,8 @@ def _doubts(gauge: Gauge, plates: Plates, index: int) -> list[Problem]:
     """Warning of an element whose forces are out of balance; worse is refused."""
     loads, element = plates.loads, int(plates.shells.element[index])
     force, corners = loads.of(plates.shells, index, gauge.where), corner_count(plates.shells, index)
-    residual = float(imbalance(loads.nodes(plates.shells, index), corners, force, plates.largest).max(initial=0.0))
+    residuals = imbalance(loads.nodes(plates.shells, index), corners, force, plates.largest)
+    residual = float(residuals[loads.balanced].max(initial=0.0))
     if residual <= WARNED:
         return []
     what = f"the forces of element {element} in {loads.file} are out of balance by {residual:.2g} of the largest"
