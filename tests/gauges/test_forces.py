@@ -85,6 +85,16 @@ def test_a_little_out_of_balance_is_a_warning(tmp_path):
     assert len(rows) == 2
 
 
+def test_rigid_modes_need_no_balance(tmp_path):
+    """Their forces are round-off; a rigid mode that carries some is read as it is."""
+    case = gauge_case(TEXT)
+    case.case.modes.loc[case.case.modes["mode"] == 2, "kind"] = "rigid"
+    noise = (case.forces["mode"] == 2).to_numpy()
+    case.forces.loc[noise, ["fx_N", "my_Nmm"]] = np.random.default_rng(1).standard_normal((noise.sum(), 2))
+    _, warnings = rows_of(*case.write(tmp_path))
+    assert warnings == []
+
+
 def test_balance_is_measured_in_the_plane_of_the_element_only():
     """A moment about the normal is none of it; one about an axis in the plane is."""
     nodes = np.array([[0.0, 0.0, 0.0], [20.0, 0.0, 0.0], [20.0, 10.0, 0.0], [0.0, 10.0, 0.0]])
