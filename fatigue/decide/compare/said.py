@@ -1,12 +1,13 @@
 """What is said of a result beside the reference: who gains, who loses, why, which verdicts flip, and what to doubt."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import pandas as pd
 
-from fatigue.decide.compare.pairs import GAINED, LOST, Pair
+from fatigue.decide.compare.pairs import GAINED, LOST, POINT, Pair
 from fatigue.decide.compare.ratios import EXACT
+from fatigue.decide.compare.split import MODE, UNIT_LOAD, WHOLE
 from fatigue.decide.compare.words import SAME, is_same, times
 from fatigue.report.wording import km, listed
 from fatigue.shown import few, shortened
@@ -110,7 +111,7 @@ def notes(pair: Pair) -> Iterator[str]:
     for letter, some, left_out in (("A", welds.only_first, b.left_out), (b.letter, welds.only_other, a.left_out)):
         if some:
             listed_there = [weld for weld in some if weld in left_out]
-            there = f" ({few(listed_there)} is in the other register, not assessed)" if listed_there else ""
+            there = f" (listed in the other, not assessed: {few(listed_there)})" if listed_there else ""
             yield f"Only {letter} has {len(some)} weld{'s' * (len(some) > 1)}: {few(some)}{there}."
     if apart := int((~points["comparable"]).sum()):
         yield (
@@ -136,9 +137,19 @@ def _about_causes(pair: Pair) -> Iterator[str]:
     bare = [one.letter for one in (pair.first, pair.other) if not one.is_diagnosed]
     if bare:
         yield f"Causes go as far as events: no diagnosis of {listed(bare)} (`fatigue diagnose` adds modes)."
-    elif not (pair.causes["kind"].isin(("mode", "unit_load"))).any() and len(pair.causes):
-        yield "Causes go as far as events: the diagnoses share no point, or their damage is not that of the results."
+    elif len(pair.causes):
+        points, told = (_points_with(pair.causes, kinds) for kinds in (WHOLE, (MODE, UNIT_LOAD)))
+        if told == 0:
+            yield "Causes go as far as events: the diagnoses share no point, or are of other damage."
+        elif told < points:
+            yield f"Causes go as far as modes at {told} of {points} points: those that both diagnoses tell of."
     if not pair.every_point:
         yield "Causes are of the worst points of every weld: those of all points would be more than 2 million rows."
     if pair.first.frequency_hz != pair.other.frequency_hz:
         yield "The modes of the two bodies differ and are matched by their numbers: compare their shapes first."
+
+
+def _points_with(causes: pd.DataFrame, kinds: Sequence[str]) -> int:
+    """Number of points that have a cause of some kinds."""
+    some = causes[causes["kind"].isin(kinds) & (causes["scope"] == POINT)]
+    return len(some[["weld", "part", "order", "surface"]].drop_duplicates())
