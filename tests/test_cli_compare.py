@@ -29,7 +29,7 @@ def test_text_and_json_and_files(two, tmp_path):
     done = fatigue("compare", *two, "-o", tmp_path / "out", "--csv")
     assert done.returncode == 0, done.stderr
     assert "Of 2 welds 2 last longer in B than in A, none less long and none as long to 5 %." in done.stdout
-    assert "record, sine: sine.csv -> sine.csv (in per_pass)" in done.stdout
+    assert "record, sine: sine.csv -> sine.csv, another content (in per_pass)" in done.stdout
     assert "compare.html" in done.stdout
     factor = 2.0**3.6085450346420327
     asked = json.loads(fatigue("compare", *two, "--json").stdout)

@@ -35,7 +35,7 @@ def sentences(pair: Pair) -> Iterator[str]:
         if len(some):
             row = some.iloc[0]
             reason = f": {row['why']}" if row["why"] else ""
-            yield f"Most {verb} {lasts(row, b)}{reason}."
+            yield f"Most {verb} weld {lasts(row, b)}{reason}."
         if len(some) > 1:
             yield from _common_cause(some, verb)
     first, other = (side.sort_values("life_km").iloc[0] for side in (_shortest(pair, ""), _shortest(pair, "other_")))
@@ -71,9 +71,8 @@ def _flips(pair: Pair) -> Iterator[str]:
     met = pair.welds["fulfilled"] & pair.welds["other_fulfilled"]
     missed = pair.welds.loc[~pair.welds["fulfilled"] & ~pair.welds["other_fulfilled"], "weld"].tolist()
     if not pair.welds["flip"].any():
-        yield "No verdict flips: " + (
-            "all meet their targets in both." if met.all() else f"{few(missed)} miss in both."
-        )
+        both = f"{few(missed)} miss{'es' * (len(missed) == 1)} the target in both"
+        yield f"No verdict flips: {'all meet their targets in both' if met.all() else both}."
     elif missed:
         yield f"In both {few(missed)} miss{'es' * (len(missed) == 1)} the target."
 

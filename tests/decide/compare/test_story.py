@@ -127,7 +127,7 @@ def test_what_else_differs_is_told(pair):
     assert found["share, noise"] == ("0.25", "0.4", "mission")
     assert found["events of A only"] == ("load and unload", "–", "event")
     assert found["events of B only"] == ("–", "bump", "event")
-    assert found["record, noise"] == ("noise.csv", "noise.csv", "per_pass")
+    assert found["record, noise"] == ("noise.csv", "noise.csv, another content", "per_pass")
     assert "record, sine" not in found
     assert not any("curve" in what or "modes" in what for what in found)
 
@@ -421,7 +421,9 @@ def test_welds_that_only_one_result_assesses(reference, tmp_path):
     assert "Only A has 1 weld: B." in list(notes(pair))
     table = match_rows(pair)
     assert table.loc[table["weld"] == "B", "note"].tolist() == ["no partner"]
-    (back,) = compare([other, reference]).pairs
+    (back,) = compare([other, reference], into=tmp_path / "out").pairs
+    assert "no partner" in (tmp_path / "out" / "compare.html").read_text(encoding="utf-8")
+    assert pd.read_parquet(tmp_path / "out" / "compare_matches.parquet")["weld"].isna().tolist() == [False, True]
     assert "Only B has 1 weld: B." in list(notes(back))
 
 
