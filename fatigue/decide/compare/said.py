@@ -125,10 +125,21 @@ def notes(pair: Pair) -> Iterator[str]:
         yield f"{bounds} of {len(points)} ratios are one-sided or unknown (basis): a bound stands for a count."
     if endless := int((points["log_life_ratio"].abs() == math.inf).sum()):
         yield f"{endless} points are damaged in one of the results only: their ratio is infinite and has no causes."
+    yield from _by_a_check(pair)
     yield from _about_causes(pair)
     if pair.welds["worst_moved"].any():
         moved = pair.welds.loc[pair.welds["worst_moved"], "weld"].tolist()
         yield f"Another point is the worst in {b.letter} at {len(moved)} weld{'s' * (len(moved) > 1)}: {few(moved)}."
+
+
+def _by_a_check(pair: Pair) -> Iterator[str]:
+    """Verdicts that flip although the toe points of the weld say the same in both: a check beside them decides."""
+    flips = pair.welds[pair.welds["flip"] != ""]
+    same = flips[(flips["utilisation"] <= 1.0) == (flips["other_utilisation"] <= 1.0)]
+    for row in same.itertuples(index=False):
+        checks = pair.first.welds.loc[row.weld, "worst_check"], pair.other.welds.loc[row.other_weld, "worst_check"]
+        named = listed([str(check) for check in dict.fromkeys(checks) if isinstance(check, str) and check])
+        yield f"The verdict of {row.weld} flips by a check beside its toes ({named or 'not named'}), by no life here."
 
 
 def _about_causes(pair: Pair) -> Iterator[str]:
