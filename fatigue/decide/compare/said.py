@@ -26,9 +26,10 @@ def sentences(pair: Pair) -> Iterator[str]:
     if pair.welds.empty:
         yield "No matched weld has a toe, so that no life is compared."
         return
+    welds = f"{len(pair.welds)} weld{'s' * (len(pair.welds) > 1)}"
     yield (
-        f"Of {len(pair.welds)} welds {_count(len(gaining))} longer in {b} than in A, {len(losing) or 'none'} less long "
-        f"and {len(same) or 'none'} as long to {100.0 * (SAME - 1.0):.0f} %."
+        f"Of {welds} {_count(len(gaining))} longer in {b} than in A, {len(losing) or 'none'} less long and "
+        f"{len(same) or 'none'} as long to {100.0 * (SAME - 1.0):.0f} %."
     )
     yield from _flips(pair)
     for some, verb in ((losing, "loses"), (gaining, "gains")):
@@ -99,7 +100,7 @@ def notes(pair: Pair) -> Iterator[str]:
     """What is not compared, or with less certainty."""
     a, b, welds, points = pair.first, pair.other, pair.matched, pair.points
     if a.record.get("result") and a.record.get("result") == b.record.get("result"):
-        yield f"{b.letter} is the same result as A: every ratio is 1."
+        yield f"{b.letter} is the same result as A."
     usable = [one for one in welds.proposed if not one.others]
     if usable:
         pairs = few([f"{one.weld} = {one.other_weld} ({one.distance_mm:.2g} mm)" for one in usable])
