@@ -29,7 +29,7 @@ def test_text_and_json_and_files(two, tmp_path):
     done = fatigue("compare", *two, "-o", tmp_path / "out", "--csv")
     assert done.returncode == 0, done.stderr
     assert "Of 2 welds 2 last longer in B than in A, none less long and none as long to 5 %." in done.stdout
-    assert "record, sine: sine.csv -> sine.csv (in per_pass)" in done.stdout
+    assert "record, sine: sine.csv -> sine.csv, another content (in per_pass)" in done.stdout
     assert "compare.html" in done.stdout
     factor = 2.0**3.6085450346420327
     asked = json.loads(fatigue("compare", *two, "--json").stdout)
@@ -124,6 +124,11 @@ def test_the_shipped_variants(shipped):
     done = fatigue("compare", shipped / "14hz", shipped / "9hz", "-o", shipped / "compared")
     assert done.returncode == 0, done.stderr
     assert "Of 14 welds 10 last longer in B than in A, none less long and 4 as long" in done.stdout
+    page = (ROOT / "docs" / "compare.md").read_text(encoding="utf-8")
+    shown = page.split("among other things,\n\n```\n")[1].split("```")[0].splitlines()
+    printed = done.stdout.replace("\u202f", " ").splitlines()
+    assert shown
+    assert not [line for line in shown if line not in printed]
     welds = pd.read_parquet(shipped / "compared" / "compare_welds.parquet").set_index("weld")
     gained = welds.index[welds["flip"] == "gained"]
     assert sorted(gained) == [f"W2_hanger{i}_att" for i in (1, 2, 3, 4)]

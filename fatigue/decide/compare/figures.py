@@ -20,6 +20,7 @@ ROW_PX = 26
 MARKS = ("circle", "diamond", "square", "triangle-up", "cross", "x")
 LEAST, MOST = math.log(1.25), math.log(1e6)  # how far the axis goes to either side of 1
 TICKS = (1.1, 1.2, 1.5, 2.0, 3.0, 5.0, 10.0, 30.0, 100.0, 1e3, 1e4, 1e5, 1e6)
+ROUNDING = 1e-9  # of a log ratio: no bar
 APART = 0.19  # of the reach of an axis, between two ticks
 
 
@@ -87,7 +88,7 @@ def event_figure(pair: Pair) -> go.Figure | None:
     ]
     parts = rows[rows["kind"].isin((MISSION, PER_PASS))].set_index(["weld", "event"]).index
     whole = rows["kind"].isin((EVENT, SEQUENCE)) & pd.MultiIndex.from_frame(rows[["weld", "event"]]).isin(parts)
-    rows = rows[~whole & (rows["log_life_ratio"] != 0.0)]
+    rows = rows[~whole & (rows["log_life_ratio"].abs() > ROUNDING)]
     colour = event_colours(list(dict.fromkeys([*pair.first.passes, *pair.other.passes])))
     names = {LIMIT: "damage limit", MISSION: ", how often"}
     labelled = rows.assign(
@@ -103,7 +104,7 @@ def event_figure(pair: Pair) -> go.Figure | None:
 def mode_figure(pair: Pair) -> go.Figure | None:
     """What modes and unit loads add, over all events, at the welds that change most; None without a diagnosis."""
     rows = pair.causes[(pair.causes["scope"] == WELD) & pair.causes["kind"].isin((MODE, UNIT_LOAD))]
-    if not rows["log_life_ratio"].any():
+    if not (rows["log_life_ratio"].abs() > ROUNDING).any():
         return None
     names = mode_names(pair.first.record)
     labels = [coordinate(mode, load, names) for mode, load in zip(rows["mode"], rows["unit_load"], strict=True)]

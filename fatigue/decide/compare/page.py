@@ -41,7 +41,6 @@ def _pair(pair: Pair, figs: Figures) -> dict[str, Any]:
     under = figs.under(f"{letter.lower()}-")
     losing, gaining, same = gains(pair)
     by_event, by_mode = event_figure(pair), mode_figure(pair)
-    matches = match_rows(pair)
     return {
         "id": f"result-{letter.lower()}",
         "letter": letter,
@@ -65,20 +64,25 @@ def _pair(pair: Pair, figs: Figures) -> dict[str, Any]:
         "modes": under.add(
             "modes",
             by_mode,
-            "The same by modes and unit loads, all events together; a mode may cost life and relieve, by the sign of "
-            "what it adds to cycles.",
+            "The same by modes and unit loads, all events together, damage limits left out; a mode may cost life or "
+            "relieve, by the sign of what it adds to cycles.",
             wide=True,
         )
         if by_mode is not None
         else None,
-        "matches": rows_table(f"matches-{letter}", MATCHES[1:], list(matches.itertuples(index=False))),
+        "matches": rows_table(f"matches-{letter}", MATCHES[1:], _rows(match_rows(pair))),
     }
 
 
 def _results(found: Comparison) -> PageTable:
     """The results; a hash says nothing to a reader of the page."""
     columns = [column for column in RESULTS if column.name != "hash"]
-    return rows_table("results", columns, list(result_rows(found.results).itertuples(index=False)))
+    return rows_table("results", columns, _rows(result_rows(found.results)))
+
+
+def _rows(table: pd.DataFrame) -> list[Any]:
+    """Rows of a table by the names of its columns; what is missing is None."""
+    return list(table.astype(object).where(table.notna(), None).itertuples(index=False))
 
 
 def _title(found: Comparison) -> str:

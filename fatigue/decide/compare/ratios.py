@@ -24,7 +24,6 @@ def life_ratio(life_a: Floats, life_b: Floats, bound_a: Flags, bound_b: Flags) -
     """
     endless_a, endless_b = np.isinf(life_a), np.isinf(life_b)
     found = log_ratio(np.where(endless_b, 1.0, life_b), np.where(endless_a, 1.0, life_a))
-    found = np.where(endless_a | endless_b, 0.0, found)
     found = np.where(endless_b & ~endless_a, np.inf, found)
     found = np.where(endless_a & ~endless_b, -np.inf, found)
     bound_a, bound_b = bound_a & ~endless_a, bound_b & ~endless_b

@@ -15,6 +15,8 @@ NOT_ON_RECORD = "not on record"
 LONGEST = 90  # letters of a value
 _COUNTED = ("screening.stations", "multiaxial.toe_points", "upsampled", "survival", "stress_category")
 """Rules of the record that say what was found, or are told elsewhere."""
+_MOVE_CURVES = ("survival", "extension", "knee_cycles", "mean_stress")
+"""Rules that change the numbers of a curve as it is used, and are told themselves."""
 _VERDICT = "the verdict only"
 _ASIDE = "nothing of the life: what is looked at or kept beside it"
 _BESIDE = (
@@ -67,10 +69,12 @@ def _curves(a: Finished, b: Finished, welds: MatchedWelds) -> _Found:
             every = "" if len(some) == len(first) else f" of {few(some)}"
             yield f"{what}{every}", one, other, sits_in
     curves_a, curves_b = a.record["curves"], b.record["curves"]
+    is_told = any(a.record["rules"].get(key) != b.record["rules"].get(key) for key in _MOVE_CURVES)
     for name in (name for name in curves_a if name in curves_b):
         ours, theirs = _flat(curves_a[name]), _flat(curves_b[name])
         for key in (key for key in ours if key in theirs and ours[key] != theirs[key]):
-            if key not in ("used.survival", "used.damage_limit", "checked_by", "checked_on"):
+            follows = key.startswith("used.") and (is_told or key in ("used.survival", "used.damage_limit"))
+            if not follows and key not in ("checked_by", "checked_on"):
                 yield f"curve {name}: {key}", _text(ours[key]), _text(theirs[key]), "per_pass"
 
 
@@ -146,7 +150,8 @@ def _files(a: Finished, b: Finished) -> _Found:
     ours, theirs = _read(a), _read(b)
     changed = [key for key in ours if key in theirs and ours[key][1] != theirs[key][1]]
     for key in changed:
-        yield key, ours[key][0], theirs[key][0], "per_pass"
+        names = ours[key][0], theirs[key][0]
+        yield key, names[0], names[1] if names[0] != names[1] else f"{names[1]}, another content", "per_pass"
 
 
 def _read(of: Finished) -> dict[str, tuple[str, str]]:

@@ -1,12 +1,13 @@
 """What is said of a result beside the reference: who gains, who loses, why, which verdicts flip, and what to doubt."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import pandas as pd
 
-from fatigue.decide.compare.pairs import GAINED, LOST, Pair
+from fatigue.decide.compare.pairs import GAINED, LOST, POINT, Pair
 from fatigue.decide.compare.ratios import EXACT
+from fatigue.decide.compare.split import MODE, UNIT_LOAD, WHOLE
 from fatigue.decide.compare.words import SAME, is_same, times
 from fatigue.report.wording import km, listed
 from fatigue.shown import few, shortened
@@ -25,16 +26,17 @@ def sentences(pair: Pair) -> Iterator[str]:
     if pair.welds.empty:
         yield "No matched weld has a toe, so that no life is compared."
         return
+    welds = f"{len(pair.welds)} weld{'s' * (len(pair.welds) > 1)}"
     yield (
-        f"Of {len(pair.welds)} welds {_count(len(gaining))} longer in {b} than in A, {len(losing) or 'none'} less long "
-        f"and {len(same) or 'none'} as long to {100.0 * (SAME - 1.0):.0f} %."
+        f"Of {welds} {_count(len(gaining))} longer in {b} than in A, {len(losing) or 'none'} less long and "
+        f"{len(same) or 'none'} as long to {100.0 * (SAME - 1.0):.0f} %."
     )
     yield from _flips(pair)
     for some, verb in ((losing, "loses"), (gaining, "gains")):
         if len(some):
             row = some.iloc[0]
             reason = f": {row['why']}" if row["why"] else ""
-            yield f"Most {verb} {lasts(row, b)}{reason}."
+            yield f"Most {verb} weld {lasts(row, b)}{reason}."
         if len(some) > 1:
             yield from _common_cause(some, verb)
     first, other = (side.sort_values("life_km").iloc[0] for side in (_shortest(pair, ""), _shortest(pair, "other_")))
@@ -70,9 +72,8 @@ def _flips(pair: Pair) -> Iterator[str]:
     met = pair.welds["fulfilled"] & pair.welds["other_fulfilled"]
     missed = pair.welds.loc[~pair.welds["fulfilled"] & ~pair.welds["other_fulfilled"], "weld"].tolist()
     if not pair.welds["flip"].any():
-        yield "No verdict flips: " + (
-            "all meet their targets in both." if met.all() else f"{few(missed)} miss in both."
-        )
+        both = f"{few(missed)} miss{'es' * (len(missed) == 1)} the target in both"
+        yield f"No verdict flips: {'all meet their targets in both' if met.all() else both}."
     elif missed:
         yield f"In both {few(missed)} miss{'es' * (len(missed) == 1)} the target."
 
@@ -99,7 +100,7 @@ def notes(pair: Pair) -> Iterator[str]:
     """What is not compared, or with less certainty."""
     a, b, welds, points = pair.first, pair.other, pair.matched, pair.points
     if a.record.get("result") and a.record.get("result") == b.record.get("result"):
-        yield f"{b.letter} is the same result as A: every ratio is 1."
+        yield f"{b.letter} is the same result as A."
     usable = [one for one in welds.proposed if not one.others]
     if usable:
         pairs = few([f"{one.weld} = {one.other_weld} ({one.distance_mm:.2g} mm)" for one in usable])
@@ -110,7 +111,7 @@ def notes(pair: Pair) -> Iterator[str]:
     for letter, some, left_out in (("A", welds.only_first, b.left_out), (b.letter, welds.only_other, a.left_out)):
         if some:
             listed_there = [weld for weld in some if weld in left_out]
-            there = f" ({few(listed_there)} is in the other register, not assessed)" if listed_there else ""
+            there = f" (listed in the other, not assessed: {few(listed_there)})" if listed_there else ""
             yield f"Only {letter} has {len(some)} weld{'s' * (len(some) > 1)}: {few(some)}{there}."
     if apart := int((~points["comparable"]).sum()):
         yield (
@@ -125,10 +126,21 @@ def notes(pair: Pair) -> Iterator[str]:
         yield f"{bounds} of {len(points)} ratios are one-sided or unknown (basis): a bound stands for a count."
     if endless := int((points["log_life_ratio"].abs() == math.inf).sum()):
         yield f"{endless} points are damaged in one of the results only: their ratio is infinite and has no causes."
+    yield from _by_a_check(pair)
     yield from _about_causes(pair)
     if pair.welds["worst_moved"].any():
         moved = pair.welds.loc[pair.welds["worst_moved"], "weld"].tolist()
         yield f"Another point is the worst in {b.letter} at {len(moved)} weld{'s' * (len(moved) > 1)}: {few(moved)}."
+
+
+def _by_a_check(pair: Pair) -> Iterator[str]:
+    """Verdicts that flip although the toe points of the weld say the same in both: a check beside them decides."""
+    flips = pair.welds[pair.welds["flip"] != ""]
+    same = flips[(flips["utilisation"] <= 1.0) == (flips["other_utilisation"] <= 1.0)]
+    for row in same.itertuples(index=False):
+        checks = pair.first.welds.loc[row.weld, "worst_check"], pair.other.welds.loc[row.other_weld, "worst_check"]
+        named = listed([str(check) for check in dict.fromkeys(checks) if isinstance(check, str) and check])
+        yield f"The verdict of {row.weld} flips by a check beside its toes ({named or 'not named'}), by no life here."
 
 
 def _about_causes(pair: Pair) -> Iterator[str]:
@@ -136,9 +148,19 @@ def _about_causes(pair: Pair) -> Iterator[str]:
     bare = [one.letter for one in (pair.first, pair.other) if not one.is_diagnosed]
     if bare:
         yield f"Causes go as far as events: no diagnosis of {listed(bare)} (`fatigue diagnose` adds modes)."
-    elif not (pair.causes["kind"].isin(("mode", "unit_load"))).any() and len(pair.causes):
-        yield "Causes go as far as events: the diagnoses share no point, or their damage is not that of the results."
+    elif len(pair.causes):
+        points, told = (_points_with(pair.causes, kinds) for kinds in (WHOLE, (MODE, UNIT_LOAD)))
+        if told == 0:
+            yield "Causes go as far as events: the diagnoses share no point, or are of other damage."
+        elif told < points:
+            yield f"Causes go as far as modes at {told} of {points} points: those that both diagnoses tell of."
     if not pair.every_point:
         yield "Causes are of the worst points of every weld: those of all points would be more than 2 million rows."
     if pair.first.frequency_hz != pair.other.frequency_hz:
         yield "The modes of the two bodies differ and are matched by their numbers: compare their shapes first."
+
+
+def _points_with(causes: pd.DataFrame, kinds: Sequence[str]) -> int:
+    """Number of points that have a cause of some kinds."""
+    some = causes[causes["kind"].isin(kinds) & (causes["scope"] == POINT)]
+    return len(some[["weld", "part", "order", "surface"]].drop_duplicates())

@@ -1,6 +1,8 @@
 """The split of a log ratio: the numbers of its specification, and nothing left over whatever the damages are."""
 
 import math
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -103,3 +105,20 @@ def test_what_has_no_logarithm():
     parts = split(1.0, 1.0, -2e-9, -1e-9, np.array(1e-7), np.array(1e-7))
     assert float(parts.per_pass) == pytest.approx(float(added(-2e-9, -1e-9, 1e-7, 1e-7)), rel=1e-12)
     assert float(parts.mission) == 0.0
+
+
+def test_the_case_by_hand_of_the_docs():
+    """Every number of the table in docs/compare.md follows from its damages."""
+    page = (Path(__file__).parents[3] / "docs" / "compare.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| (\w+) \| (\S+) \| (\S+) \| (\S*) ?\| (\S+) \| (\S+) \|$", page, re.MULTILINE)
+    table = {name: (a, b, log, factor) for name, a, b, _, log, factor in rows}
+    assert list(table) == ["straight", "worn", "yard", "tunnel", "all"]
+    a, b = ({name: 0.0 if row[side] == "-" else float(row[side]) for name, row in table.items()} for side in (0, 1))
+    for name, (_, _, log, factor) in table.items():
+        found = float(added(a[name], b[name], a["all"], b["all"]))
+        assert log == f"{found:.4f}"
+        assert factor == f"{math.exp(found):.3g}".ljust(len(factor), "0")
+    parts = split(1.0, 1.6, 50.0, 75.0, np.array(71.0), np.array(148.0))
+    assert f"Of worn, {float(parts.mission):.4f} is the mission" in page
+    assert f"and {float(parts.per_pass):.4f} the pass" in page
+    assert f"L(148, 71) = {float(log_mean(148.0, 71.0)):.1f}" in page

@@ -19,6 +19,7 @@ CASES = {  # life in A, in B, bound in A, in B -> log ratio, basis
     "A endless": (INF, 1e6, False, False, -INF, "exact"),
     "A at least so much, B endless": (1e6, INF, True, False, math.nan, "unknown"),
     "A endless, B at least so much": (INF, 1e6, False, True, math.nan, "unknown"),
+    "no life at all in B": (1e6, 0.0, False, False, math.nan, "unknown"),
     "A endless by its bound": (INF, 1e6, True, False, -INF, "exact"),
 }
 

@@ -5,17 +5,22 @@ import shutil
 
 import numpy as np
 import pandas as pd
+import pyarrow.compute as pc
 import pyarrow.parquet as pq
 import pytest
 
+from fatigue.assess import assess
 from fatigue.decide.compare.said import notes, sentences
 from fatigue.decide.compare.split import WHOLE
 from fatigue.decide.compare.story import compare
+from fatigue.decide.compare.summary import match_rows
+from fatigue.diagnose import diagnose
 from fatigue.errors import CaseError, DataError
 from fatigue.results.dictionary.decided.compare import COMPARED
 from tests.decide.compare.variants import POINT, lives, renamed, renumbered_and_reversed, result_of, sloping, turned
 from tests.older_result import without_hashes
 from tests.test_sequences import LOOP, empty_and_laden
+from tests.unit_load_case import as_unit_load, write_with_loads
 
 NOISE = "noise"
 
@@ -122,7 +127,7 @@ def test_what_else_differs_is_told(pair):
     assert found["share, noise"] == ("0.25", "0.4", "mission")
     assert found["events of A only"] == ("load and unload", "–", "event")
     assert found["events of B only"] == ("–", "bump", "event")
-    assert found["record, noise"] == ("noise.csv", "noise.csv", "per_pass")
+    assert found["record, noise"] == ("noise.csv", "noise.csv, another content", "per_pass")
     assert "record, sine" not in found
     assert not any("curve" in what or "modes" in what for what in found)
 
@@ -363,6 +368,76 @@ def test_curves_and_rules_that_differ(reference, tmp_path):
     assert found["upsampled, noise"] == ("1", "2", "per_pass")
     assert (pair.points["log_life_ratio"] < 0.0).all()
     assert_nothing_left_over(pair, has_modes=False)
+
+
+def test_a_mission_alone_is_all_mission(reference, tmp_path):
+    """Other shares of the same records: what events add is how often they occur, and the sum of it the ratio."""
+    case = sloping()
+    case.events[0]["share"], case.events[1]["share"] = 0.2, 0.8
+    other = result_of(case, tmp_path)
+    causes = compare([reference, other]).pairs[0].causes
+    assert np.abs(causes.loc[causes["kind"] == "per_pass", "log_life_ratio"]).max() < 1e-14
+    mission = causes[causes["kind"] == "mission"].groupby(["scope", *POINT])["log_life_ratio"].sum()
+    ratio = np.log(lives(other) / lives(reference))
+    np.testing.assert_allclose(mission["point"], ratio.reindex(mission["point"].index), rtol=0, atol=1e-12)
+
+
+def test_unit_loads_take_part(tmp_path):
+    """A mode given as a unit load adds what it added as a mode, by its name; modes stay what they are."""
+    found = []
+    for as_load in (False, True):
+        folders = []
+        for factor in (1.0, 1.5):
+            case = sloping()
+            table = case.histories["noise"]
+            case.histories["noise"] = table.assign(q_2=factor * table["q_2"])
+            folder = tmp_path / f"{as_load}{factor}"
+            if as_load:
+                write_with_loads(case, folder / "case", as_unit_load(case, 2, "wind"))
+                assess(folder / "case" / "case.toml", folder / "result", threads=1, report=False)
+                diagnose(folder / "result")
+                folders.append(folder / "result")
+            else:
+                folders.append(result_of(case, folder, diagnosed=True))
+        (pair,) = compare(folders).pairs
+        assert_nothing_left_over(pair, has_modes=True)
+        found.append(pair.causes)
+    of_mode = found[0][found[0]["mode"] == 2].set_index(["scope", *POINT, "event"])["log_life_ratio"]
+    of_load = found[1][found[1]["unit_load"] == "wind"].set_index(["scope", *POINT, "event"])["log_life_ratio"]
+    assert len(of_load) == len(of_mode) > 0
+    assert set(found[1].loc[found[1]["unit_load"].notna(), "kind"]) == {"unit_load"}
+    np.testing.assert_allclose(of_load, of_mode.reindex(of_load.index), rtol=1e-6, atol=1e-9)
+
+
+def test_welds_that_only_one_result_assesses(reference, tmp_path):
+    """Named with the side they are on; the rest is compared."""
+    case = sloping()
+    for table in ("welds", "weld_nodes", "nodal_forces"):
+        rows = getattr(case, table)
+        setattr(case, table, rows[rows["weld"] == "A"])
+    other = result_of(case, tmp_path)
+    (pair,) = compare([reference, other]).pairs
+    assert pair.welds["weld"].tolist() == ["A"]
+    assert "Only A has 1 weld: B." in list(notes(pair))
+    table = match_rows(pair)
+    assert table.loc[table["weld"] == "B", "note"].tolist() == ["no partner"]
+    (back,) = compare([other, reference], into=tmp_path / "out").pairs
+    assert "no partner" in (tmp_path / "out" / "compare.html").read_text(encoding="utf-8")
+    assert pd.read_parquet(tmp_path / "out" / "compare_matches.parquet")["weld"].isna().tolist() == [False, True]
+    assert "Only B has 1 weld: B." in list(notes(back))
+
+
+def test_a_diagnosis_of_some_points_is_said(reference, changed, tmp_path):
+    """Modes stand where both diagnoses tell of a point, as in large jobs; the others end at events."""
+    some = without_hashes(shutil.copytree(changed, tmp_path / "some"))
+    table = pq.read_table(some / "attribution.parquet")
+    pq.write_table(table.filter(pc.less(table["order"], 3)), some / "attribution.parquet")
+    (pair,) = compare([reference, some]).pairs
+    modes = pair.causes[(pair.causes["kind"] == "mode") & pair.causes["other_value"].ne(0.0)]
+    assert set(modes["order"]) == {1, 2}
+    assert_nothing_left_over(pair, has_modes=False)
+    gone = pair.causes[(pair.causes["event"] == "load and unload") & (pair.causes["kind"] == "mode")]
+    assert set(gone["order"]) == set(range(1, 8))  # of an event that B has not A alone has to tell
 
 
 def test_everything_is_written(reference, changed, tmp_path):
