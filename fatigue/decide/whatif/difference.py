@@ -156,12 +156,11 @@ def _other_files(record: Mapping[str, Any], base: Case, changed: Case, told: set
     """Files of the same name that are others, as the changed case lies in another folder."""
     if base.path.parent.resolve() == changed.path.parent.resolve():
         return
+    there = dict(_keys(base))
     for key, value in _keys(changed):
-        kind = _kind(key, base, changed)
-        if key[-1] in FILES and kind == "recount" and key not in told and isinstance(value, str):
-            there = dict(_keys(base)).get(key)
-            if there == value and not _is_same_file(record, base, changed, value, value):
-                yield Difference(key, str(base.resolve(value)), str(changed.resolve(value)), kind)
+        is_asked = key[-1] in FILES and key not in told and isinstance(value, str) and there.get(key) == value
+        if is_asked and not _is_same_file(record, base, changed, value, value):
+            yield Difference(key, str(base.resolve(value)), str(changed.resolve(value)), "recount")
     of_welds = register_file(changed)
     known = {entry["sha256"] for entry in record["inputs"]}
     key = ("body", "register")

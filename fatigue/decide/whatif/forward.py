@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from fatigue.decide.whatif.change import Change
 from fatigue.decide.whatif.curves import Curves, OneCurve
 from fatigue.decide.whatif.stored import Kind, Stored, StoredRanges
-from fatigue.life.bounds.histogram import Classes, Enclosed, damage_of_classes, joined_classes
+from fatigue.life.bounds.histogram import Classes, Enclosed, damage_between, damage_of_classes, joined_classes
 from fatigue.life.bounds.law_ratio import ratio_extremes
 
 Floats = NDArray[np.float64]
@@ -205,26 +205,40 @@ def entered(classes: Classes, f: Floats, curve: OneCurve, stored: Stored, points
 
 
 def _bounded(stored: Stored, change: Change, curve: OneCurve, rows: NDArray[np.intp], others: Flags) -> Enclosed:
-    """Bounds of the damage per km of some events at points without ranges."""
+    """Bounds of the damage per km of some events at points without ranges.
+
+    They are multiples of the damage that no cycle exceeds. Where the old law is straight the damage is a power sum, so
+    that of a counted point all cycles of an event are one class from 0 to the largest range.
+    """
     low, high = np.zeros(len(rows)), np.zeros(len(rows))
     own = curve.equivalent_factors(stored.thickness[rows], stored.attachment[rows])
     if own is None:
         return Enclosed(low, np.full(len(rows), np.inf), np.full(len(rows), np.inf))
     largest, joined = stored.largest("dS")[rows], others & change.loop_events()
-    weights = change.after.weights
+    old, new = curve.before.rule.law, curve.after.rule.law
+    is_power_sum = old.is_straight and curve.same_cycle
+    cycles = stored.cycles()[rows] if is_power_sum else np.full(largest.shape, np.nan)
     groups = [np.arange(len(others)) == event for event in np.flatnonzero(others & ~joined)]
     groups += [joined & (change.factors == factor) for factor in np.unique(change.factors[joined])]
-    old, new = curve.before.rule.law, curve.after.rule.law
     for group in groups:
-        damage = np.maximum(stored.per_pass[rows] @ (weights * group), 0.0)
+        weights = change.after.weights * group
+        damage = np.maximum(stored.per_pass[rows] @ weights, 0.0)
         reach = largest[:, group].max(axis=1)
         f = float(change.factors[group][0])
-        least = ratio_extremes(old, new, f * own.least, reach).least
+        of_least = ratio_extremes(old, new, f * own.least, reach).least * damage
         most = ratio_extremes(old, new, f * own.most, reach).most
         there = (reach > 0.0) & ((damage > 0.0) | np.isinf(most))
-        low += damage * least
-        high += np.where(there, np.where(damage > 0.0, damage, 1.0) * most, 0.0)
-    return Enclosed(low, high.copy(), high)
+        of_most = np.where(there, np.where(damage > 0.0, damage, 1.0) * most, 0.0)
+        n = cycles[:, group] @ weights[group]
+        counted = np.flatnonzero((n > 0.0) & (reach > 0.0))
+        power_sum = damage[counted] * np.exp(old.log_constants[0])
+        ends = np.zeros(len(counted)), reach[counted] * (1.0 + ROUNDING)
+        as_class = damage_between(n[counted], power_sum, ends, curve.slope, new, f * own.most[counted])
+        of_least[counted] = np.maximum(of_least[counted], as_class.low)
+        of_most[counted] = np.minimum(of_most[counted], as_class.high)
+        low += of_least
+        high += of_most
+    return Enclosed(np.minimum(low, high), high.copy(), high)
 
 
 def _without_sum(stored: Stored, change: Change, curves: Curves, found: Forward, *, decided_by_shear: bool) -> None:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from fatigue.decide.whatif.change import Change
 from fatigue.decide.whatif.curves import Curves, OneCurve
-from fatigue.decide.whatif.forward import RECOUNT, Forward, Ranges, entered, mission_classes
+from fatigue.decide.whatif.forward import COUNTED, RECOUNT, Forward, Ranges, entered, mission_classes
 from fatigue.decide.whatif.stored import Stored
 from fatigue.life.bounds.histogram import Enclosed, joined_classes
 from fatigue.life.mission import straight_load_factor
@@ -42,7 +42,7 @@ def load_factors(stored: Stored, change: Change, curves: Curves, ranges: Ranges,
             k = float(rule.law.slopes[0])
             for part, of in ((low, utilisation.high), (value, utilisation.value), (high, utilisation.low)):
                 part[here] = straight_load_factor(of[here], k)
-        elif curve.ranges != "none":
+        elif curve.ranges != "none" and (here := here & (found.basis != COUNTED)).any():  # its ranges are not stored
             rows, solved = _of_ranges(stored, change, curve, ranges, here, found.limit)
             for part, of in zip((low, value, high), solved, strict=True):
                 part[rows] = of

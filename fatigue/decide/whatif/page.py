@@ -28,13 +28,13 @@ HEADINGS = (
     Heading("weld", numeric=False),
     Heading("before", numeric=False),
     Heading("now", numeric=False),
+    Heading("basis", numeric=False),
     Heading("life before", "km"),
     Heading("life", "km"),
     Heading("from .. to", "km"),
     Heading("life ratio"),
     Heading("utilisation"),
     Heading("load factor"),
-    Heading("basis", numeric=False),
 )
 
 
@@ -75,10 +75,17 @@ def _said(found: WhatIf) -> Iterator[str]:
 
 def _flips(found: WhatIf) -> PageTable | None:
     rows = [
-        (text(row.weld), VERDICT[row.verdict_before], VERDICT[row.verdict], num(row.life_km_before), num(row.life_km))
+        (
+            text(row.weld),
+            VERDICT[row.verdict_before],
+            VERDICT[row.verdict],
+            text(row.basis),
+            num(row.life_km_before),
+            num(row.life_km),
+        )
         for row in found.flips.head(MOST_ROWS).itertuples()
     ]
-    return PageTable("flips", HEADINGS[:5], tuple(rows)) if rows else None
+    return PageTable("flips", HEADINGS[:6], tuple(rows)) if rows else None
 
 
 def _weld_table(found: WhatIf) -> PageTable:
@@ -87,13 +94,13 @@ def _weld_table(found: WhatIf) -> PageTable:
             text(row.weld),
             VERDICT[row.verdict_before],
             VERDICT[row.verdict],
+            text(row.basis),
             num(row.life_km_before),
             num(row.life_km),
             span(row.life_km_low, row.life_km_high),
             num(row.life_ratio),
             num(row.utilisation),
             num(row.load_factor),
-            text(row.basis),
         )
         for row in found.welds.head(MOST_ROWS).itertuples()
     )

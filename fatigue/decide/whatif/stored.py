@@ -64,6 +64,11 @@ class Stored:
         column: Floats = read_table(self.folder, "damage", [LARGEST[kind]])[LARGEST[kind]].to_numpy()
         return column.reshape(len(self), len(self.names))
 
+    def cycles(self) -> Floats:
+        """Cycles (n, r) of one pass of every event, and what one run of a loop changes; NaN of points not counted."""
+        column: Floats = read_table(self.folder, "damage", ["cycles_per_pass"])["cycles_per_pass"].to_numpy()
+        return column.reshape(len(self), len(self.names))
+
     def keys(self) -> pd.DataFrame:
         """Key of every point and its node, row by row."""
         texts = {}

@@ -105,10 +105,8 @@ class WhatIf:
             yield f"{visible(row.weld)}: {_words(row.verdict_before)} before, now {_words(row.verdict)}"
 
     def _table(self) -> Iterator[str]:
-        head = (
-            f"  {'weld':{NAME}}{'life before':>12}{'life [km]':>12}  {'from .. to':>22}  {'x':>6}  {'verdict':12}basis"
-        )
-        yield head
+        lives = f"{'before [km]':>12}{'life [km]':>12}  {'from .. to':>22}  {'ratio':>6}"
+        yield f"  {'weld':{NAME}}{lives}  {'verdict':12}basis"
         for row in self.welds.head(MOST_TOLD).itertuples():
             band = f"{number(row.life_km_low)} .. {number(row.life_km_high)}"
             band = "" if row.life_km_low == row.life_km_high else band

@@ -2,7 +2,7 @@
 
 The worst point is the toe point with the largest value. The band of a weld goes from the largest low to the largest
 high of all its toe points, so that a point with a wider band is in it. ``meets`` and ``misses`` are proven: no point
-can reach the limit, or one surely does. Else it is ``not_proven``.
+can reach the limit, or one surely does. Else it is ``not_proven``, as is a weld that a check beside its toe fails.
 """
 
 from typing import Any
@@ -56,7 +56,7 @@ def weld_table(
             "curve": curves,
             "verdict_before": was,
             "verdict": verdict,
-            "flips": verdict != was,
+            "flips": (verdict != was) & ~checks_fail,
             "basis": np.array(BASES)[basis],
             "points_to_recount": left,
             "life_km_before": life_before,

@@ -116,14 +116,32 @@ def damage_of_classes(
 
 def class_damage(classes: Classes, slope: float, law: DamageLaw, factor: Floats | float = 1.0) -> Enclosed:
     """Damage (c,) of each class, as ``damage_of_classes`` sums it up."""
-    f = np.broadcast_to(np.asarray(factor, dtype=np.float64), len(classes))
-    sign = np.where(classes.count < 0.0, -1.0, 1.0)
-    N, P = np.abs(classes.count), sign * classes.power_sum
-    edges = _edges(classes, N, P, slope)
+    lower = np.where(classes.bin == 0, 0.0, HISTOGRAM_EDGES[classes.bin])
+    is_last = classes.bin == HISTOGRAM_BINS - 1
+    upper = np.where(is_last, np.maximum(classes.largest, lower), HISTOGRAM_EDGES[classes.bin + 1])
+    return damage_between(classes.count, classes.power_sum, (lower, upper), slope, law, factor)
+
+
+def damage_between(
+    count: Floats,
+    power_sum: Floats,
+    ends: tuple[Floats, Floats],
+    slope: float,
+    law: DamageLaw,
+    factor: Floats | float = 1.0,
+) -> Enclosed:
+    """Damage (c,) under a law of cycles whose ranges lie between two ``ends`` (c,), from their number and power sum.
+
+    ``count`` and ``power_sum`` are sum n and sum n x^k with k the ``slope``, ``factor`` is on all ranges.
+    """
+    f = np.broadcast_to(np.asarray(factor, dtype=np.float64), len(count))
+    sign = np.where(count < 0.0, -1.0, 1.0)
+    N, P = np.abs(count), sign * power_sum
+    edges = _edges(*ends, N, P, slope)
     at_a, at_b = _segment(f * edges.a, law), _segment(f * edges.b, law)
     one_power = (at_a == at_b) & ((f * edges.a >= law.cutoff) | (f * edges.b < law.cutoff))
     damages = f * edges.b >= law.cutoff
-    low, value, high = (np.zeros(len(classes)) for _ in range(3))
+    low, value, high = (np.zeros(len(count)) for _ in range(3))
     for rows, bounds in ((one_power & damages, _on_one_power), (~one_power, _across_knees)):
         some = np.flatnonzero(rows)
         at = edges.of(some)
@@ -159,11 +177,8 @@ def joined_classes(classes: Classes) -> Classes:
     )
 
 
-def _edges(classes: Classes, N: Floats, P: Floats, slope: float) -> _Edges:
+def _edges(a: Floats, b: Floats, N: Floats, P: Floats, slope: float) -> _Edges:
     """Ends of each class, and its mean between them."""
-    a = np.where(classes.bin == 0, 0.0, HISTOGRAM_EDGES[classes.bin])
-    is_last = classes.bin == HISTOGRAM_BINS - 1
-    b = np.where(is_last, np.maximum(classes.largest, a), HISTOGRAM_EDGES[classes.bin + 1])
     mean = np.divide(P, N, out=np.zeros_like(P), where=N > 0.0)
     low, high = a**slope, b**slope
     outside = (mean < low * (1.0 - ROUNDING)) | (mean > high * (1.0 + ROUNDING)) | ((N == 0.0) & (P != 0.0))

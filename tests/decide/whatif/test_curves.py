@@ -72,6 +72,22 @@ def test_strength_factors_go_with_their_curves(two_curves, tmp_path):
     np.testing.assert_allclose(points["utilisation"], again["utilisation"], rtol=1e-3)
 
 
+def test_other_strength_factors_in_another_folder_are_counted_again(two_curves, tmp_path):
+    """A file that another case names alike and that holds something else is no knob that the result can answer."""
+    (tmp_path / "base" / "case").mkdir(parents=True)
+    (tmp_path / "base" / "case" / "factors.csv").write_text(FACTORS)
+    two_curves.extra += '\n[checks]\nstrength_factors = "factors.csv"\n'
+    result = run(two_curves, tmp_path / "base")
+    other = two_curves.write(tmp_path / "other")
+    (other.parent / "factors.csv").write_text(FACTORS.replace("1.1", "1.2"))
+    found = whatif(result, case_file=other)
+    assert found.points["basis"].eq("recount").all()
+    assert "checks.strength_factors" in found.reasons[0]
+    (other.parent / "factors.csv").write_text(FACTORS)
+    with pytest.raises(CaseError, match="value that the result was computed with"):
+        whatif(result, case_file=other)
+
+
 def test_damage_limit_of_a_curve_and_of_the_mission(two_curves, tmp_path):
     """A curve with a limit of its own keeps it when that of the mission changes."""
     two_curves.extra = two_curves.extra.replace("log10_scatter", "damage_limit = 0.7\nlog10_scatter")

@@ -119,11 +119,12 @@ def cases():
     """Curve, sequence or not, name of the knob, settings, dropped events, and the case beside it."""
     for name in CURVES:
         for sequence in (False, True):
-            knobs = MISSION | CURVE | OTHERS[name]
+            of_mission = {} if name in ("cutoff", "structural") else MISSION
+            knobs = of_mission | CURVE | OTHERS[name]
             knobs = knobs | SEQUENCE if sequence else knobs | {k: v for k, v in NOT_IN_SEQUENCE.items() if v}
             for knob, (settings, drop, mutate) in knobs.items():
                 as_it_is = knob == ("none" if name == "straight" else name)
-                briefly = sequence and name in ("cutoff", "structural") and knob not in SEQUENCE | CURVE
+                briefly = sequence and not of_mission and knob not in SEQUENCE | CURVE
                 if as_it_is or briefly or (sequence and knob in NOT_IN_SEQUENCE):
                     continue
                 yield pytest.param(name, sequence, knob, settings, drop, mutate, id=f"{name}-{sequence}-{knob}")

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fatigue.life.bounds.histogram import Classes, class_damage, damage_of_classes, joined_classes
+from fatigue.life.bounds.histogram import Classes, class_damage, damage_between, damage_of_classes, joined_classes
 from fatigue.life.counting.block import HISTOGRAM_BINS, HISTOGRAM_EDGES
 from fatigue.life.curves import DamageLaw, catalogue, damage_law, user_curve
 from fatigue.life.rule import cycle_damage
@@ -227,3 +227,18 @@ def test_classes_that_lose_more_than_they_have_are_open():
     low, value, high = damage_of_classes(taken, ALUMINIUM, power(5.0))
     assert low < -(48.8**5) - 2 * 50.3**5 < high
     assert low <= value <= high
+
+
+@settings(max_examples=200, deadline=None)
+@given(cycles, st.floats(1.5, 6.0), laws(), st.floats(0.3, 3.0))
+def test_all_cycles_as_one_class_still_enclose_the_truth(found, k, law, factor):
+    """From 0 to the largest range, with nothing but their number and power sum."""
+    x, n = np.array(found).T
+    count, power_sum = np.array([n.sum()]), np.array([(n * x**k).sum()])
+    ends = np.zeros(1), np.array([x.max()])
+    low, value, high = (float(part[0]) for part in damage_between(count, power_sum, ends, k, law, factor))
+    truth = (n * cycle_damage(factor * x, law)).sum()
+    room = 1e-11 * truth + 1e-300
+    assert low - room <= truth <= high + room
+    assert low - room <= value <= high + room
+    assert high < np.inf
