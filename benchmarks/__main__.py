@@ -9,6 +9,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from benchmarks import peers, pipeline, processes
+from benchmarks.decisions import what_if
 from benchmarks.finite_elements import finite_elements
 from benchmarks.shear import shear
 
@@ -24,6 +25,7 @@ PARTS = {
     "memory": processes.memory,
     "shear": shear,
     "finite-elements": finite_elements,
+    "what-if": what_if,
 }
 
 

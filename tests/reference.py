@@ -19,6 +19,7 @@ from fatigue.results.dictionary.basis import BASIS
 from fatigue.results.dictionary.claims import CLAIMED
 from fatigue.results.dictionary.decided.backsolve import BACKSOLVED
 from fatigue.results.dictionary.decided.fleet import FLEET
+from fatigue.results.dictionary.decided.whatif import WHATIFS
 from fatigue.results.dictionary.graph import GRAPH
 from fatigue.results.dictionary.study import STUDY
 from fatigue.study.study_file import Study
@@ -49,7 +50,8 @@ AREAS = (  # where the refusals of a room are met by users; the first that fits
     ("verify", "Result folders and documents"),
     ("decide/bench_files", "Bench programmes"),
     ("decide/bench_points", "Bench programmes"),
-    ("decide", "Decisions"),
+    ("decide/whatif", "What if"),
+    ("decide", "Fleets and back-solving"),
     ("bench", "Bench programmes"),
     ("study", "Studies of a vehicle"),
     ("vehicle", "Studies of a vehicle"),
@@ -216,7 +218,7 @@ def _allowed(key: Key) -> str:
 def column_text() -> str:
     """Columns of every table with type, unit and meaning."""
     parts = []
-    for table, its in (TABLES | BASIS | GRAPH | STUDY | CLAIMED | FLEET | BACKSOLVED).items():
+    for table, its in (TABLES | BASIS | WHATIFS | BACKSOLVED | FLEET | GRAPH | STUDY | CLAIMED).items():
         rows = [f"| `{c.name}` | {c.type} | {c.unit} | {c.meaning} |" for c in its]
         parts.append(
             "\n".join([f"### {table}.parquet", "", "| column | type | unit | meaning |", "|---|---|---|---|", *rows])

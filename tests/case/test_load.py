@@ -128,3 +128,9 @@ def test_schema_accepts_what_the_models_accept(load):
     for table in (schema, *schema["$defs"].values()):
         for key, value in table["properties"].items():
             assert value.get("description"), key
+
+
+def test_every_table_tells_what_it_lacks(load):
+    """A missing key of a table inside a table is named as any other."""
+    with pytest.raises(CaseError, match=r"checks\.stress_category\.high_from: the key is missing"):
+        load(MINIMAL + '\n[checks.stress_category]\nmedium_from = 0.7\nsource = "mine"\n')

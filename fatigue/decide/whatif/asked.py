@@ -130,13 +130,22 @@ def _load_factor(value: Any) -> float:
 
 def _drop(tables: dict[str, Any], names: Sequence[str]) -> Iterator[Problem]:
     """Take events out of the mission, in place; refusals of what cannot be taken out."""
-    mission = tables.get("mission", {})
-    there = [event.get("name") for event in mission.get("event", [])]
+    mission = tables.get("mission")
+    if not names or not isinstance(mission, dict):
+        return
+    events, sequences = (_of_list(mission, key) for key in ("event", "sequence"))
+    there = [event.get("name") for event in events]
     for name in names:
         if name not in there:
             what, known = f"the mission has no event {name!r}", ", ".join(map(repr, there))
             yield Problem("unknown_event", "--drop", what, f"It has {known}")
-        elif any(name in sequence.get("order", []) for sequence in mission.get("sequence", [])):
+        elif any(name in sequence.get("order", []) for sequence in sequences):
             what = f"the event {name!r} is in a sequence, which would be another one without it"
             yield Problem("event_in_sequence", "--drop", what, "Give a case without it with --case, and --recount")
-    mission["event"] = [event for event in mission.get("event", []) if event.get("name") not in names]
+    mission["event"] = [event for event in events if event.get("name") not in names]
+
+
+def _of_list(mission: Mapping[str, Any], key: str) -> list[dict[str, Any]]:
+    """Tables of a list of the mission."""
+    found = mission.get(key)
+    return [table for table in found if isinstance(table, dict)] if isinstance(found, list) else []

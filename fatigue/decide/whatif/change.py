@@ -72,7 +72,7 @@ def mission_of(record: Mapping[str, Any]) -> Mission:
     """The mission of a result."""
     mission = record["mission"]
     weights = [event["passes_per_km"] for event in mission["events"]]
-    runs = [loop["runs_per_km"] for loop in mission["sequences"]]
+    runs = [loop["runs_per_km"] for loop in mission.get("sequences", ())]
     return Mission(np.array([*weights, *runs]), mission["target_km"], mission["km_per_year"], mission["damage_limit"])
 
 
@@ -80,8 +80,9 @@ def names_of(record: Mapping[str, Any]) -> tuple[tuple[str, ...], tuple[tuple[in
     """Names of the events and of the loops behind them, and the numbers of the events of each loop."""
     mission = record["mission"]
     events = [event["event"] for event in mission["events"]]
-    loops = tuple(tuple(events.index(name) for name in loop["order"]) for loop in mission["sequences"])
-    return (*events, *(loop["name"] for loop in mission["sequences"])), loops
+    sequences = mission.get("sequences", ())  # an older result has none
+    loops = tuple(tuple(events.index(name) for name in loop["order"]) for loop in sequences)
+    return (*events, *(loop["name"] for loop in sequences)), loops
 
 
 def unchanged(record: Mapping[str, Any]) -> Change:

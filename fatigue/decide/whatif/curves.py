@@ -71,8 +71,7 @@ class OneCurve:
     @property
     def same_size(self) -> bool:
         """Whether plates of any thickness have the same factor on the range."""
-        a, b = self.before, self.after
-        return a.curve == b.curve and a.thickness_rule == b.thickness_rule and a.on_range == b.on_range
+        return _of_size(self.before) == _of_size(self.after)
 
     @property
     def slope(self) -> float:
@@ -189,6 +188,15 @@ def _is_close(ours: ArrayLike, stored: ArrayLike) -> bool:
 def _other_curve(record: Mapping[str, Any], name: str) -> Problem:
     what = f"curve '{name}' of this version is another one than that of the result"
     return Problem("changed_curve", str(record["case_file"]), what, "Assess again with this version")
+
+
+def _of_size(rated: RatedCurve) -> tuple[object, ...]:
+    """What the factor of a plate on the range depends on."""
+    curve = rated.curve
+    of = curve.allowances
+    thickness = (curve.thickness_reference, curve.thickness_exponent, of.thickness_effective, rated.thickness_rule)
+    bending = (of.bending_factor, of.bending_reference, of.bending_exponent)
+    return curve.applies, *thickness, *bending, rated.on_range
 
 
 def _of_cycle(rule: CycleRule) -> tuple[object, ...]:

@@ -12,15 +12,17 @@ from numpy.typing import NDArray
 
 from fatigue.decide.whatif.change import Change
 from fatigue.decide.whatif.curves import Curves, OneCurve
-from fatigue.decide.whatif.forward import RECOUNT, Forward, Ranges, entered, mission_classes
+from fatigue.decide.whatif.forward import COUNTED, RECOUNT, Forward, Ranges, entered, mission_classes
 from fatigue.decide.whatif.stored import Stored
-from fatigue.life.bounds.histogram import Enclosed
+from fatigue.life.bounds.histogram import Enclosed, joined_classes
 from fatigue.life.mission import straight_load_factor
 
 Floats = NDArray[np.float64]
+UtilisationAt = Callable[[Floats, NDArray[np.bool_]], Floats]
 
 MOST_STEPS = 100
 CLOSE = 1e-11  # of ln(factor)
+EDGE = 0.4 * CLOSE
 WIDE = 0.1  # of ln(factor), at first
 FAR = 20.0  # ln of a factor at which everything damages
 
@@ -40,7 +42,7 @@ def load_factors(stored: Stored, change: Change, curves: Curves, ranges: Ranges,
             k = float(rule.law.slopes[0])
             for part, of in ((low, utilisation.high), (value, utilisation.value), (high, utilisation.low)):
                 part[here] = straight_load_factor(of[here], k)
-        elif curve.ranges != "none":
+        elif curve.ranges != "none" and (here := here & (found.basis != COUNTED)).any():  # its ranges are not stored
             rows, solved = _of_ranges(stored, change, curve, ranges, here, found.limit)
             for part, of in zip((low, value, high), solved, strict=True):
                 part[rows] = of
@@ -53,57 +55,63 @@ def _of_ranges(
     """Rows of points with ranges, and their load factors."""
     every = ranges(curve.ranges)  # type: ignore[arg-type]
     some = every.some(here[every.classes.of])
-    rows, of = np.unique(some.classes.of, return_inverse=True)
+    rows = np.unique(some.classes.of)
     classes, f = mission_classes(change, some, change.after.weights > 0.0)
-    of = np.searchsorted(rows, classes.of)
+    if len(np.unique(f)) == 1:  # the events of a point in one: fewer classes, whose bounds are hardly wider
+        classes = joined_classes(classes)
+        f = np.full(len(classes), f[0])
+    place = np.searchsorted(rows, classes.of)
     scale = change.after.target_km / limit[rows]
 
-    def utilisation(part: int) -> Callable[[Floats], Floats]:
-        def at(log_factor: Floats) -> Floats:
-            found = entered(classes, f * np.exp(log_factor)[of], curve, stored, len(stored))
+    def utilisation(part: int) -> UtilisationAt:
+        def at(log_factor: Floats, points: NDArray[np.bool_]) -> Floats:
+            asked = points[place]
+            own = classes.some(asked)
+            found = entered(own, f[asked] * np.exp(log_factor)[place[asked]], curve, stored, len(stored))
             return np.asarray(found[part][rows] * scale)
 
         return at
 
-    low, value, high = (np.exp(_root(utilisation(part), len(rows))) for part in (2, 1, 0))
+    low, value, high = (largest_factor(utilisation(part), len(rows)) for part in (2, 1, 0))
     return rows, Enclosed(low, value, high)
 
 
-def _root(utilisation: Callable[[Floats], Floats], n: int) -> Floats:
-    """Ln of the factors (n,) up to which a rising utilisation is at most 1; +inf where it is 0 at any factor.
+def largest_factor(utilisation: UtilisationAt, n: int) -> Floats:
+    """Largest factors (n,) up to which a rising utilisation is at most 1; +inf where it is 0 at any factor.
 
-    Secants of ln(utilisation) over ln(factor), which is nearly straight, within brackets that are halved in between.
+    ``utilisation`` gives that at ln of the factors (n,), of which only some are asked for (n,). Secants of
+    ln(utilisation) over ln(factor), which is nearly straight, within brackets that are halved now and then: a cut-off
+    makes it jump.
     """
-    at = np.zeros(n)
-    here = _log(utilisation(at))
-    never = (here == -np.inf) & (_log(utilisation(at + FAR)) == -np.inf)
-    low, high = at.copy(), at.copy()
-    of_low, of_high = here.copy(), here.copy()
+    low, every = np.zeros(n), np.ones(n, dtype=np.bool_)
+    of_low = _log(utilisation(low, every))
+    never = (of_low == -np.inf) & (_log(utilisation(low + FAR, every)) == -np.inf)
+    high, of_high = low.copy(), of_low.copy()
     width = WIDE
     for _ in range(MOST_STEPS):  # a bracket
         up, down = (of_high <= 0.0) & ~never, of_low > 0.0
         if not (up | down).any():
             break
-        high = np.where(up, high + width, high)
-        low = np.where(down, low - width, low)
-        of_high = np.where(up, _log(utilisation(high)), of_high)
-        of_low = np.where(down, _log(utilisation(low)), of_low)
+        low, high = np.where(up, high, low), np.where(down, low, high)
+        of_low, of_high = np.where(up, of_high, of_low), np.where(down, of_low, of_high)
+        low, high = np.where(down, low - width, low), np.where(up, high + width, high)
+        here = _log(utilisation(np.where(up, high, low), up | down))
+        of_low, of_high = np.where(down, here, of_low), np.where(up, here, of_high)
         width = min(2.0 * width, 5.0)
     for step in range(MOST_STEPS):
-        open_ = (high - low > CLOSE) & ~never
-        if not open_.any():
+        is_open = (high - low > CLOSE) & ~never
+        if not is_open.any():
             break
         with np.errstate(divide="ignore", invalid="ignore"):
             secant = low - of_low * (high - low) / (of_high - of_low)
-        middle = 0.5 * (low + high)
+        aside = np.where(step % 2, EDGE, -EDGE)  # of a secant that has found it, so that both ends close in
         is_secant = np.isfinite(secant) & (secant > low) & (secant < high) & (step % 3 != 2)
-        edge = CLOSE * 0.4
-        at = np.where(is_secant, np.clip(secant + np.where(step % 2, edge, -edge), low, high), middle)
-        here = _log(utilisation(at))
+        at = np.where(is_secant, np.clip(secant + aside, low, high), 0.5 * (low + high))
+        here = _log(utilisation(at, is_open))
         above = here > 0.0
-        low, of_low = np.where(open_ & ~above, at, low), np.where(open_ & ~above, here, of_low)
-        high, of_high = np.where(open_ & above, at, high), np.where(open_ & above, here, of_high)
-    return np.where(never, np.inf, low)
+        low, of_low = np.where(is_open & ~above, at, low), np.where(is_open & ~above, here, of_low)
+        high, of_high = np.where(is_open & above, at, high), np.where(is_open & above, here, of_high)
+    return np.where(never, np.inf, np.exp(low))
 
 
 def _log(values: Floats) -> Floats:

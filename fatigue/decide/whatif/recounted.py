@@ -96,12 +96,12 @@ def _factors(record: Mapping[str, Any], case: Case, differs: Differences) -> lis
 
 
 def _of_shear(record: Mapping[str, Any]) -> Iterator[Problem]:
-    method = record["rules"]["multiaxial"]["method"]
     if shear_decides(record):
+        method = record["rules"]["multiaxial"]["method"]
         what = f"shear decides by multiaxial.method = '{method}', and only normal stress is counted again here"
         yield Problem("recount_of_shear", "--recount", what, "Assess the changed case with `fatigue assess`")
 
 
 def shear_decides(record: Mapping[str, Any]) -> bool:
     """Whether a damage sum of shear may decide about the life of a point."""
-    return bool(record["rules"]["multiaxial"]["method"] in DECIDING)
+    return record["rules"].get("multiaxial", {}).get("method") in DECIDING

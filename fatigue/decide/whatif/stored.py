@@ -6,7 +6,7 @@ Rows of ``damage.parquet`` are point by point as those of ``nodes.parquet``, and
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, Self
 
 import numpy as np
 import pandas as pd
@@ -82,12 +82,9 @@ class StoredRanges:
     classes: Classes
     row: NDArray[np.intp]
 
-    def some(self, rows: NDArray[np.bool_] | NDArray[np.intp]) -> "StoredRanges":
+    def some(self, rows: NDArray[np.bool_]) -> Self:
         """Some of the classes."""
-        c = self.classes
-        return StoredRanges(
-            Classes(c.of[rows], c.bin[rows], c.count[rows], c.power_sum[rows], c.largest[rows]), self.row[rows]
-        )
+        return type(self)(self.classes.some(rows), self.row[rows])
 
     def classes_of(self, rows: NDArray[np.bool_], weights: Floats) -> Classes:
         """Some of the classes per km, of events and loops with these weights (r,) [1/km]."""

@@ -1,1 +1,1 @@
-"""Proven upper bounds of the damage, for points that need no counting."""
+"""Proven bounds of the damage: of points that need no counting, and of stored ranges on another curve."""

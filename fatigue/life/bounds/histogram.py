@@ -52,6 +52,10 @@ class Classes:
         """Number of classes."""
         return len(self.bin)
 
+    def some(self, rows: Indices | NDArray[np.bool_]) -> Self:
+        """Some of them."""
+        return type(self)(self.of[rows], self.bin[rows], self.count[rows], self.power_sum[rows], self.largest[rows])
+
     def times(self, weight: Floats | float) -> Self:
         """The same, each ``weight`` times as often."""
         return type(self)(self.of, self.bin, weight * self.count, weight * self.power_sum, self.largest)

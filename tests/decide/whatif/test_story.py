@@ -175,6 +175,41 @@ def test_points_without_ranges_lie_between_bounds(tmp_path, name, settings, muta
     assert (found["damage_per_km"] == found["damage_per_km_high"])[bound].all()
 
 
+@pytest.mark.parametrize(
+    ("settings", "mutate"),
+    [
+        (["load=1.4"], load(1.4)),
+        (["curve.survival=mean-3sigma"], curve(survival="mean-3sigma")),
+        (["curve.extension=none"], curve(extension="none")),
+        (["mission.sequence.2.per_1000_km=0.2", "curve.thickness_rule=asme"], None),
+    ],
+)
+def test_loops_that_share_events_stay_between_bounds(tmp_path, settings, mutate):
+    """Cycles across events that replace others, of events by share and by number, on a curve with a knee."""
+    case = base_case("haibach", sequence=True)
+    case.extra += '[[mission.sequence]]\norder = ["load and unload", "sine"]\nper_1000_km = 1.5\n'
+
+    def fewer(case: SmallCase) -> SmallCase:
+        return curve(thickness_rule="asme")(extra("per_1000_km = 1.5", "per_1000_km = 0.2")(case))
+
+    result = run(case, tmp_path / "base")
+    found = whatif(result, settings).points
+    again = nodes_of(run(changed(case, mutate or fewer), tmp_path / "again", histogram="none"))
+    truth = again["damage_per_km"].to_numpy()
+    assert found["basis"].eq("histogram").all()
+    assert inside(found["damage_per_km_low"].to_numpy(), truth, found["damage_per_km_high"].to_numpy())
+    np.testing.assert_allclose(found["damage_per_km"], truth, rtol=2e-3)
+
+
+def test_counted_points_on_a_curve_with_a_knee_have_no_load_factor(tmp_path):
+    """Their ranges under the change are not stored; on a straight curve the factor follows from the utilisation."""
+    result = run(base_case("haibach"), tmp_path)
+    found = whatif(result, ["counting.residue=half"], recount="all").points
+    counted = found["basis"].eq("counted")
+    assert counted.any()
+    assert found["load_factor"][counted].isna().all()
+
+
 def screened(tmp_path, target_km: float):
     """A result whose points were settled by bounds, but for the worst of each weld."""
     case = base_case("straight")

@@ -51,6 +51,18 @@ def test_a_table_of_a_list_has_its_name():
     assert tables == {"mission": {"event": [{"name": "worn", "stress_factor": 2.0}]}, "ride": {"alarm": {"cycles": 5}}}
 
 
+def test_a_table_of_a_list_without_names_has_its_number():
+    """From 1; a number beyond the list says how many there are."""
+    tables = {"mission": {"sequence": [{"per_1000_km": 1.0}, {"per_1000_km": 2.0}]}}
+    put(tables, "mission.sequence.2.per_1000_km", 3.0)
+    assert value_at(tables, "mission.sequence.2.per_1000_km") == 3.0
+    assert value_at(tables, "mission.sequence.1.per_1000_km") == 1.0
+    for wrong in ("0", "3", "two"):
+        with pytest.raises(NoSuchKey) as found:
+            put(tables, f"mission.sequence.{wrong}.per_1000_km", 1.0)
+        assert found.value.remedy == "Write a number from 1 to 2"
+
+
 @pytest.mark.parametrize(
     ("key", "words", "remedy"),
     [
