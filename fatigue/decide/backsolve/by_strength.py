@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from fatigue.decide.backsolve.closed import strength_factor
 from fatigue.decide.backsolve.counted import CountedPoints
 from fatigue.decide.backsolve.forward import Base, with_strength, worst_of_welds
-from fatigue.decide.backsolve.root import JUMPS, log_steps, smallest_that_meets
+from fatigue.decide.backsolve.root import JUMPS, log_steps, smallest_around, smallest_that_meets
 from fatigue.decide.backsolve.strength import Kind
 from fatigue.decide.whatif.forward import EXACT, HISTOGRAM, forward
 from fatigue.decide.whatif.margin import load_factors
@@ -27,7 +27,7 @@ Rows = NDArray[np.int64]
 Counting = Callable[[Rows], AbstractContextManager[CountedPoints]]
 
 SCAN = log_steps(0.5, 2.0, 33)  # of thickness: a half to twice
-AROUND = log_steps(0.125, 8.0, 33)  # of load and curve, about what a straight curve would ask for
+LOAD_STEPS = 33  # about what is known of a load or curve
 ROUNDS = 8  # of points that turn out to govern beside those counted so far
 MEETS = 1.0 + 1e-6  # utilisation
 
@@ -159,16 +159,13 @@ def _with_counted(
 ) -> None:
     """Let counted points govern where they ask for more strength, in place."""
     weld = base.stored.weld[counted.rows]
-    around = guess[weld]
-
-    def utilisation(y: Floats) -> Floats:
-        return counted.utilisation(kind, around * y, target_km)
-
-    of = smallest_that_meets(utilisation, AROUND, len(weld))
-    for i in np.argsort(of.x * around, kind="stable").tolist():
-        w, x = int(weld[i]), float(of.x[i] * around[i])
+    of = smallest_around(
+        lambda x: counted.utilisation(kind, x, target_km), np.maximum(guess, found.x)[weld], LOAD_STEPS
+    )
+    for i in np.argsort(of.x, kind="stable").tolist():
+        w, x = int(weld[i]), float(of.x[i])
         if x > found.x[w] or (found.basis[w] == "" and x == found.x[w]):
-            found.x[w] = found.low[w] = found.high[w] = x
+            found.x[w], found.low[w], found.high[w] = x, max(found.low[w], x), max(found.high[w], x)
             found.row[w], found.basis[w] = counted.rows[i], "recount"
             found.utilisation[w] = of.utilisation[i]
             found.jumps[w], found.not_monotonic[w] = of.jumps[i], of.not_monotonic[i]

@@ -17,6 +17,8 @@ CLOSE = 1e-11  # of the utilisation from 1
 JUMPS = 1e-7  # of the utilisation from 1, where nothing lies between
 NARROW = 1e-13  # of ln x: what is left between is a jump
 MOST_STEPS = 100
+WIDE = 8.0  # factor on a guess, either way
+MOST_SHIFTS = 5  # of the range about a guess, each by the square of that
 RISES = 1e-9  # relative, by which a utilisation may rise from rounding
 
 
@@ -66,6 +68,26 @@ def smallest_that_meets(utilisation_at: UtilisationAt, scan: Floats, n: int) -> 
     )
     x = np.where(inside, x, np.where(last < 0, 0.0, np.inf))
     return Smallest(x, np.where(inside, utilisation, np.nan), np.asarray(rises), jumps & inside)
+
+
+def smallest_around(utilisation_at: UtilisationAt, guess: Floats, steps: int) -> Smallest:
+    """Smallest strength (n,) as ``smallest_that_meets``, about a ``guess`` (n,) that may be far off.
+
+    An eighth to eight times the guess is scanned, and beyond it as long as the answer is not inside.
+    """
+    scan, n = log_steps(1.0 / WIDE, WIDE, steps), len(guess)
+    found = smallest_that_meets(lambda y: utilisation_at(guess * y), scan, n)
+    x = found.x * guess
+    for _ in range(MOST_SHIFTS):
+        above, below = np.isinf(x), x == 0.0
+        if not (above | below).any():
+            break
+        guess = guess * np.where(above, WIDE**2, np.where(below, WIDE**-2, 1.0))
+        next_ = smallest_that_meets(lambda y, at=guess: utilisation_at(at * y), scan, n)  # type: ignore[misc]
+        new = above | below
+        x = np.where(new, next_.x * guess, x)
+        found = Smallest(*(np.where(new, getattr(next_, k), getattr(found, k)) for k in Smallest.__slots__))
+    return Smallest(x, found.utilisation, found.not_monotonic, found.jumps)
 
 
 def _refined(

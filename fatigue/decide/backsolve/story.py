@@ -80,11 +80,16 @@ def backsolve(
     of = question(asked, target, stored.record)
     base = base_of(stored, folder)
 
+    counted: list[int] = []
+
     def counting(rows: Rows) -> AbstractContextManager[CountedPoints]:
+        counted.append(len(rows))
         plates = _plates(stored, rows)
         return counted_points(folder, stored.record, rows, plates, case_file=case_file, threads=threads)
 
     rows, points = _answered(base, of, counting)
+    if counted and not points:
+        points = f"{sum(counted)} points were counted again: what is stored of them does not tell the answer."
     found = Answers(
         title=str(stored.record["title"]),
         asked=of,

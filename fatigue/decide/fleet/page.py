@@ -26,8 +26,7 @@ def fleet_page(found: FleetFound) -> str:
         "title": found.title,
         "verdict": found.verdict,
         "missed": not found.fulfilled,
-        "facts": f"{len(found.units)} units, {len(found.conditions)} conditions, {found.welds} welds, "
-        f"{found.points} points.",
+        "facts": f"{found.facts}.",
         "ranking": figs.add("ranking", ranking(found.units, found.target_years), _ranked(found), wide=True),
         "units": _table("fleet_units", units_table(found.units), len(found.units)),
         "spread": figs.add("spread", spread(found.percentiles, found.target_years), _spread(found), wide=True),

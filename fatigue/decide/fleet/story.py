@@ -5,6 +5,7 @@ condition is one event of one result. All results must have the same points, on 
 """
 
 from collections.abc import Iterator
+from contextlib import ExitStack
 from dataclasses import asdict, replace
 from pathlib import Path
 
@@ -25,6 +26,7 @@ from fatigue.files.hashes import sha256
 from fatigue.files.recorded import Filled, refuse_foreign
 from fatigue.report.wording import whole
 from fatigue.results.dictionary.decided.fleet import FLEET
+from fatigue.results.outputs import damage_told
 from fatigue.results.plain_tables import Rows, fill, table_files
 from fatigue.stages import stage
 
@@ -61,6 +63,14 @@ def fleet(
         refuse_foreign(folder, FILLED, force=force, inputs=[asked.path, km])
     stage("reading %d conditions", len(asked.condition))
     results = read_results(asked, no_lock=no_lock)
+    with ExitStack() as told:
+        for result in results.values():
+            told.enter_context(damage_told(result.folder))
+        return _summed_up(asked, results, folder, km, csv=csv)
+
+
+def _summed_up(asked: Fleet, results: dict[str, Result], folder: Path | None, km: Path, *, csv: bool) -> FleetFound:
+    """The fleet from its results, as ``fleet`` returns it."""
     by_number = np.array([results[one.results].is_by_number(one.event) for one in asked.condition])
     distances, warnings = read_distances(km, asked.names, by_number)
     refuse_short_loops(asked, results, distances)

@@ -8,7 +8,7 @@ import numpy as np
 
 from fatigue.decide.fleet.rows import PercentileRow, UnitRow, VarianceRow
 from fatigue.errors import Problem
-from fatigue.report.wording import number, share
+from fatigue.report.wording import number, share, whole
 from fatigue.shown import few, shortened, visible
 
 UNITS_TOLD, WELDS_TOLD, SHARES_TOLD = 20, 10, 4
@@ -64,6 +64,17 @@ class FleetFound:
             return f"all {len(self.units)} units meet {target}"
         return f"{len(self.missed)} of {len(self.units)} units miss {target}"
 
+    @property
+    def facts(self) -> str:
+        """How much there is."""
+        counts = {
+            "unit": len(self.units),
+            "condition": len(self.conditions),
+            "weld": self.welds,
+            "point": self.points,
+        }
+        return ", ".join(f"{whole(n)} {of}{'s' * (n != 1)}" for of, n in counts.items())
+
     def as_record(self) -> dict[str, Any]:
         """Record for machines."""
         return asdict(self) | {"fulfilled": self.fulfilled, "verdict": self.verdict}
@@ -72,7 +83,7 @@ class FleetFound:
         """Text for people: ranking, percentiles, shares."""
         lines = [
             f"{visible(self.title)}: {self.verdict}",
-            f"{len(self.units)} units, {len(self.conditions)} conditions, {self.welds} welds, {self.points} points",
+            self.facts,
             "",
             *self._units(),
             "",

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fatigue.decide.backsolve.by_strength import SCAN
-from fatigue.decide.backsolve.root import log_steps, smallest_that_meets
+from fatigue.decide.backsolve.root import log_steps, smallest_around, smallest_that_meets
 from fatigue.life.rule import SIZE_EXPONENT, bending_ratio, ratio_factor
 
 K = 3.6085450346420327
@@ -94,3 +94,13 @@ def test_knees(knee, k1, k2, u):
         assert not found.jumps[0]
     else:
         assert found.x[0] == (0.0 if float(utilisation(np.array([0.125]))[0]) <= 1.0 else np.inf)
+
+
+def test_far_from_the_guess():
+    """The scan moves to where the answer is, either way; where nothing damages nothing is asked for."""
+    wanted = np.array([1.0, 1e4, 1e-4, 30.0])
+    found = smallest_around(lambda x: (wanted / x) ** 5, np.ones(4), 33)
+    np.testing.assert_allclose(found.x, wanted, rtol=1e-9)
+    np.testing.assert_allclose(found.utilisation, 1.0, atol=1e-9)
+    assert smallest_around(np.zeros_like, np.ones(2), 33).x.tolist() == [0.0, 0.0]
+    assert np.isinf(smallest_around(lambda x: np.full_like(x, 2.0), np.ones(1), 33).x[0])

@@ -14,6 +14,7 @@ from fatigue.decide.fleet.story import fleet
 from fatigue.errors import DataError
 from fatigue.results import write_provenance
 from tests.decide.fleet.fleet_case import body, result
+from tests.older_result import without_hashes
 from tests.test_sequences import LOOP, empty_and_laden, weights
 
 POINT = ["weld", "part", "order", "surface"]
@@ -293,3 +294,11 @@ def test_error_of_the_band(tmp_path):
     se = band.loc[(row.weld, row.part, row.order, row.surface), "se_load"]
     assert se > 0.0
     assert row.damage_cv == pytest.approx(se, rel=1e-12)
+
+
+def test_older_results(folder, tmp_path, caplog):
+    """A result without hashes is summed, with a warning that nothing tells whether it is as it was written."""
+    other = without_hashes(copied(folder, tmp_path) / "out" / "worn")
+    found = fleet(two(tmp_path, folder / "out" / "sound", other))
+    assert len(found.units) == 1
+    assert "no hashes on record" in caplog.text
