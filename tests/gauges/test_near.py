@@ -43,6 +43,18 @@ def test_five_degrees_off_a_principal_direction_are_of_second_order():
     assert slanted > 20.0 * along
 
 
+def test_the_larger_of_both_turns_counts_however_small_the_strain():
+    """At 70 degrees to the tension 5 degrees on lose more than 5 degrees back gain, relative to what is read."""
+    for size in (10.0, 1e-4):
+        changes = []
+        for turn in (-5.0, 5.0):
+            e = [(1 - NU) / 2 + (1 + NU) / 2 * np.cos(2 * np.deg2rad(70.0 + t)) for t in (0.0, turn)]
+            changes.append(abs(abs(e[1]) / abs(e[0]) - 1.0))
+        assert abs(changes[0] - changes[1]) > 0.1
+        found = angle_sensitivity(grid([[size], [0.0], [0.0]], 70.0), np.eye(1))
+        assert found == pytest.approx(max(changes))
+
+
 def test_a_stand_in_and_a_grid_at_rest_have_no_sensitivity():
     """There is nothing to turn."""
     assert np.isnan(angle_sensitivity(grid([[1.0], [0.3], [0.0]], 0.0, stand_in=True), np.eye(1)))

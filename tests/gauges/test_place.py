@@ -99,3 +99,28 @@ def test_a_grid_that_leaves_the_plate_is_refused(shells):
     spot = located(shells, centre, UP, "here")
     with pytest.raises(DataError, match="its grid of 16 mm leaves the plate 5 mm from its middle"):
         crossed(shells, spot, centre, np.array([0.0, 1.0, 0.0]), 16.0, "here")
+
+
+def test_both_coordinates_in_the_plane_decide(shells):
+    """Near one corner of an element, far from its middle in x and less in y, and the reverse."""
+    for x, y, element in ((38.0, 1003.0, 102), (21.0, 1009.5, 102), (41.0, 1000.5, 103)):
+        assert shells.element[located(shells, np.array([x, y, 0.0]), UP, "here").index] == element
+
+
+@pytest.mark.parametrize(("height", "is_crossed"), [(3.0, True), (4.5, False)])
+def test_a_grid_goes_on_over_a_step_of_up_to_two_thicknesses(height, is_crossed):
+    """A plate that goes on a little higher is crossed; one further away is another plate."""
+    xyz = np.array([[0.0, 0.0, 0.0], [20.0, 0.0, 0.0], [20.0, 10.0, 0.0], [0.0, 10.0, 0.0]])
+    node = np.arange(1, 9)
+    corners = np.zeros((2, 8), dtype=np.int64)
+    corners[:, :4] = [[1, 2, 3, 4], [5, 6, 7, 8]]
+    both = np.concatenate([xyz, xyz + np.array([20.0, 0.0, height])])
+    stepped = shells_of(Mesh(node, both, np.array([1, 2]), corners, np.ones(2, dtype=np.int64), np.full(2, T)))
+    centre = np.array([15.0, 5.0, 0.0])
+    spot = located(stepped, centre, UP, "here")
+    if is_crossed:
+        found = dict(crossed(stepped, spot, centre, np.array([1.0, 0.0, 0.0]), 20.0, "here"))
+        assert found == pytest.approx({0: 0.75, 1: 0.25})
+    else:
+        with pytest.raises(DataError, match="leaves the plate 5 mm from its middle"):
+            crossed(stepped, spot, centre, np.array([1.0, 0.0, 0.0]), 20.0, "here")
