@@ -11,7 +11,7 @@ from fatigue.gauges.correlated.flag_rows import FlagRow, SpikeShown, flag_rows, 
 from fatigue.gauges.correlated.numbers import Numbers, Side, compared, lost_share, side
 from fatigue.gauges.correlated.prepared import Prepared, Treatment, km_run, prepared
 from fatigue.gauges.correlated.sides import Strain
-from fatigue.gauges.correlated.spectra import coherence_band, density, segment_samples
+from fatigue.gauges.correlated.spectra import coherence_band, density, frequencies, segment_samples
 from fatigue.gauges.correlated.verdict import verdict
 from fatigue.gauges.measured.alignment import Alignment, aligned
 from fatigue.gauges.measured.calibration_file import Calibration
@@ -154,16 +154,16 @@ def _alignment(measured: Side, simulated: Side, how: How) -> tuple[Alignment | N
     if how.max_lag_s is None:
         return None, np.nan
     rate_hz, (one,), (other,) = how.treatment.rate_hz, measured.records, simulated.records
-    found = aligned(one.x, other.x, rate_hz, how.max_lag_s)
+    found = aligned(one.x, other.x, rate_hz, how.max_lag_s, one.kept)
     length = segment_samples([one, other], rate_hz, how.segment_s)
-    return found, coherence_band(one.x, other.x, found, rate_hz, length, how.band_hz)
+    return found, coherence_band(one, other, found, rate_hz, length, how.band_hz)
 
 
 def _drawn(found: Sequence[Prepared], measured: Side, simulated: Side, alignment: Alignment | None, how: How) -> Drawn:
     rate_hz = how.treatment.rate_hz
     length = segment_samples([*measured.records, *simulated.records], rate_hz, how.segment_s)
-    frequency, of_measured = density(measured.records, rate_hz, length)
-    _, of_simulated = density(simulated.records, rate_hz, length)
+    frequency = frequencies(rate_hz, length)
+    of_measured, of_simulated = (density(one.records, rate_hz, length) for one in (measured, simulated))
     inside = (frequency >= how.band_hz[0]) & (frequency < how.band_hz[1])
     tops = [one.cycles.range[0] for one in (measured, simulated) if one.cycles.range.size]
     level = np.linspace(0.0, max(tops, default=1.0), LEVELS + 1)[1:]

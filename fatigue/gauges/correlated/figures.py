@@ -79,7 +79,7 @@ def spike_samples(spikes: Sequence[SpikeShown]) -> go.Figure | None:
         ]
         notes.append(
             {
-                "text": f"{middle:.4g} s, {shortened(visible(spike.record), 24)}",
+                "text": f"{middle:.3f} s, {shortened(visible(spike.record), 24)}",
                 "xref": f"x{name} domain",
                 "yref": f"y{name} domain",
                 "x": 0.0,

@@ -18,7 +18,7 @@ FEWEST_AROUND = 6  # samples on each side
 
 @dataclass(frozen=True, slots=True)
 class FlagRow:
-    """A row of the table ``channel_flags``: samples that follow on each other with one flag, or a record that drifts."""
+    """A row of the table ``channel_flags``: neighbouring samples with one flag, or a record that drifts."""
 
     gauge: str
     channel: str

@@ -6,6 +6,7 @@ from typing import Any
 
 from fatigue.gauges.correlated.compared import Comparison
 from fatigue.gauges.correlated.figures import densities, exceedances, histories, spike_samples
+from fatigue.gauges.correlated.flag_rows import DRIFT, FlagRow
 from fatigue.gauges.correlated.summary import Correlation, verdicts_in_words
 from fatigue.gauges.correlated.verdict import (
     DATA,
@@ -17,14 +18,13 @@ from fatigue.gauges.correlated.verdict import (
     YARDSTICK,
 )
 from fatigue.report.page_text import page_text
-from fatigue.report.rows_table import rows_table
-from fatigue.report.sections.cells import Cell, Heading, PageTable, num, percent, text
+from fatigue.report.sections.cells import Cell, Heading, PageTable, integer, num, percent, text
 from fatigue.report.sections.embed import Figures, Shown
-from fatigue.results.dictionary.decided.correlation import CHANNEL_FLAGS
 
 PAGE = "correlation.html"
 MOST_GAUGES = 40  # with figures, those furthest off; the tables have all
 MOST_FLAGS = 60  # places of a channel
+LEAST_SHARE = 5e-5  # that a percentage of two decimals shows
 
 WORDS = {
     GOOD: Cell("✓ good", 0.0, mark="met"),
@@ -84,14 +84,10 @@ def _verdict_table(found: Correlation, ids: dict[int, str]) -> PageTable:
         Heading("equivalent range ratio"),
         Heading("damage ratio"),
         Heading("rms ratio"),
-        Heading("measured rms", "ue"),
-        Heading("kept"),
-        Heading("counted", "km"),
-        Heading("lost share"),
-        Heading("flags", numeric=False),
     ]
     if found.is_aligned:
         headings += [Heading("lag", "s"), Heading("correlation"), Heading("coherence")]
+    headings += [Heading("kept"), Heading("outside band"), Heading("flags", numeric=False)]
     rows = tuple(_verdict_row(one, ids.get(id(one), "")) for one in found.comparisons)
     return PageTable("verdicts-table", tuple(headings), rows, "Find a gauge" if len(rows) >= 25 else "")
 
@@ -100,11 +96,10 @@ def _verdict_row(one: Comparison, link: str) -> tuple[Cell, ...]:
     numbers = one.numbers
     cells = [Cell(text(one.channel.gauge).text, link=link), text(one.channel.name), WORDS[one.verdict]]
     cells += [num(n) for n in (numbers.equivalent_range_ratio, numbers.damage_ratio, numbers.rms_ratio)]
-    cells += [num(numbers.rms_measured), percent(one.kept_share), num(one.km), percent(one.lost_share)]
-    cells.append(text(one.said_flags or "none"))
     if one.alignment is not None:
         cells += [num(one.alignment.lag_s), num(one.alignment.correlation), num(one.coherence)]
-    return tuple(cells)
+    lost = one.lost_share if abs(one.lost_share) >= LEAST_SHARE else 0.0
+    return (*cells, percent(one.kept_share), percent(lost), text(one.said_flags or "none"))
 
 
 def _section(one: Comparison, id_: str, figs: Figures, is_aligned: bool) -> dict[str, Any]:
@@ -133,7 +128,7 @@ def _section(one: Comparison, id_: str, figs: Figures, is_aligned: bool) -> dict
             ),
         ],
         "bands": _band_table(one, id_),
-        "flags": rows_table(f"{id_}_flags", CHANNEL_FLAGS[3:], flags) if flags else None,
+        "flags": _flag_table(flags, id_) if flags else None,
         "more_flags": len(one.flags) - len(flags),
     }
 
@@ -159,7 +154,42 @@ def _said(one: Comparison) -> str:
 def _band_table(one: Comparison, id_: str) -> PageTable:
     """Ratios by band and by how often ranges are reached, in one row."""
     bands, ranges = one.numbers.band_ratios, one.numbers.range_ratios
-    headings = [Heading(f"rms {low:g} to {high:g}", "Hz") for low, high in bands]
+    headings = [Heading(f"rms {low:.4g} to {high:.4g}", "Hz") for low, high in bands]
     headings += [Heading(f"range at {n}", "1/km") for n in ranges]
     cells = [num(ratio) for ratio in (*bands.values(), *ranges.values())]
     return PageTable(f"{id_}-bands", tuple(headings), (tuple(cells),))
+
+
+def _flag_table(flags: Sequence[FlagRow], id_: str) -> PageTable:
+    """Flagged places with their times in the record."""
+    headings = (
+        Heading("record", numeric=False),
+        Heading("flag", numeric=False),
+        Heading("from", "s"),
+        Heading("to", "s"),
+        Heading("samples"),
+        Heading("value", "ue"),
+        Heading("from its neighbours", "ue"),
+        Heading("counted", numeric=False),
+    )
+    rows = tuple(
+        (
+            text(row.record),
+            text(row.flag),
+            Cell(f"{row.first_s:.4f}", row.first_s),
+            Cell(f"{row.last_s:.4f}", row.last_s),
+            integer(row.samples, grouped=True),
+            num(row.value_ue),
+            num(row.distance_ue),
+            text(_counted(row)),
+        )
+        for row in flags
+    )
+    return PageTable(f"{id_}-flags", headings, rows)
+
+
+def _counted(row: FlagRow) -> str:
+    """What is counted at a flagged place."""
+    if row.flag == DRIFT:
+        return "as it is"
+    return "a line" if row.bridged else "no"

@@ -170,7 +170,7 @@ def _counts(one: Comparison) -> dict[str, int]:
 
 
 def _number(value: float) -> str:
-    return "-" if math.isnan(value) else f"{value:.3g}"
+    return "-" if math.isnan(value) else f"{value:#.3g}"
 
 
 def verdicts_in_words(comparisons: Sequence[Comparison]) -> str:

@@ -36,18 +36,23 @@ class Alignment:
         return self.rival > RIVAL * abs(self.correlation)
 
 
-def aligned(measured: Floats, simulated: Floats, rate_hz: float, max_lag_s: float) -> Alignment:
+def aligned(
+    measured: Floats, simulated: Floats, rate_hz: float, max_lag_s: float, kept: NDArray[np.bool_] | None = None
+) -> Alignment:
     """Lag of a measured record (t,) behind a simulated one (t,) whose means are zero (measured_data 2.3).
 
-    The lag is at the vertex of the parabola through the three largest neighbouring values. A record without content
-    has no correlation: NaN.
+    The lag is at the vertex of the parabola through the three largest neighbouring values. Samples that are not
+    ``kept`` (t,) count on neither side. A record without content has no correlation: NaN.
 
     >>> t = np.arange(2000) / 200.0
     >>> found = aligned(-np.sin(9.0 * (t - 0.01)), np.sin(9.0 * t), 200.0, 0.1)
     >>> round(found.lag_s, 2), round(found.correlation, 2)
     (0.01, -1.0)
     """
-    norm = float(np.sqrt((measured @ measured) * (simulated @ simulated)))
+    beside = simulated[: len(measured)]
+    if kept is not None:
+        measured, beside = np.where(kept, measured, 0.0), np.where(kept, beside, 0.0)
+    norm = float(np.sqrt((measured @ measured) * (beside @ beside)))
     if norm == 0.0:
         return Alignment(0.0, 0, np.nan, np.nan, False)
     most = min(round(max_lag_s * rate_hz), len(measured) - 1)
@@ -58,7 +63,7 @@ def aligned(measured: Floats, simulated: Floats, rate_hz: float, max_lag_s: floa
     at_end = peak in (0, len(c) - 1)
     part = 0.0 if at_end else _vertex(*(sign * c[peak - 1 : peak + 2]))
     rival = max(0.0, float((-sign * c).max()))
-    return Alignment((peak - most + part) / rate_hz, peak - most, float(c[peak]), rival, at_end)
+    return Alignment(float((peak - most + part) / rate_hz), peak - most, float(c[peak]), rival, at_end)
 
 
 def _vertex(left: float, top: float, right: float) -> float:
