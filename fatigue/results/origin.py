@@ -1,7 +1,8 @@
 """Where a result came from: the way to its case file, and whether case and inputs are still what they were.
 
 A case holds keys that no assessment reads: the channels of its events, how a ride is judged, what a modal basis is
-compared with, what strain gauges are read from. They may come, change and go: the case is the one that was assessed all the same.
+compared with, what strain gauges are read from. They may come, change and go: the case is the one that was assessed
+all the same.
 """
 
 import json

@@ -99,11 +99,11 @@ def scene(
         "hoverinfo": "text" if few else "none",
     }
     return figure(
-        [*(_body(body) if body is not None else []), lines],
+        [*(body_traces(body) if body is not None else []), lines],
         height=540,
         margin={"l": 0, "r": 0, "t": 0, "b": 0},
         showlegend=False,
-        scene=_space(stations[["x_mm", "y_mm", "z_mm"]].to_numpy() if body is None else body.xyz),
+        scene=space_around(stations[["x_mm", "y_mm", "z_mm"]].to_numpy() if body is None else body.xyz),
     )
 
 
@@ -180,7 +180,8 @@ def _labels(stations: pd.DataFrame, rows: NDArray[np.int64]) -> list[str]:
     return [texts[row] if row >= 0 else "" for row in rows]
 
 
-def _body(body: BodyOutline) -> list[Trace]:
+def body_traces(body: BodyOutline) -> list[Trace]:
+    """What is drawn of the body in 3-D: its faces in grey, unless they are too many, and its outline."""
     traces: list[Trace] = []
     if len(body.triangle) <= 2 * SHADED_ELEMENTS:
         traces.append(
@@ -201,7 +202,7 @@ def _body(body: BodyOutline) -> list[Trace]:
     return [*traces, {"type": "scatter3d", "x": x, "y": y, "z": z, **look}]
 
 
-def _space(xyz: NDArray[np.float64]) -> dict[str, Any]:
+def space_around(xyz: NDArray[np.float64]) -> dict[str, Any]:
     """Axes true to scale around points (k, 3), a flat direction a little widened; seen from the side and above."""
     low, high = xyz.min(axis=0), xyz.max(axis=0)
     extent = 1.04 * np.maximum(high - low, max(FLATTEST * float((high - low).max()), 1.0))
