@@ -12,7 +12,7 @@ from fatigue.gauges.measured.channel_file import Channel
 from fatigue.readers.neutral.tables import open_table
 
 METHODS = ("shunt", "factory", "dead load")
-SHUNT_TOLERANCE = 0.03
+SHUNT_TOLERANCE, ROUNDING = 0.03, 1e-9
 TEXTS = ("channel", "valid_from", "method")
 NUMBERS = ("offset", "shunt_ue_expected", "shunt_ue_read")
 
@@ -40,7 +40,7 @@ class Calibration:
     @property
     def shunt_is_off(self) -> bool:
         """Whether the shunt is more than ``SHUNT_TOLERANCE`` off."""
-        return abs(self.shunt_share - 1.0) > SHUNT_TOLERANCE
+        return abs(self.shunt_share - 1.0) > SHUNT_TOLERANCE + ROUNDING
 
 
 AS_IT_IS = Calibration(1.0, 0.0, None, "", np.nan, sign_checked=False)
