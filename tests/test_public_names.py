@@ -97,6 +97,7 @@ def test_files_may_be_text(result, tmp_path):
         "case_9hz.toml",
         "case_checks.toml",
         "case_endurance.toml",
+        "case_gauges.toml",
         "case_loads.toml",
         "case_ride.toml",
     ]

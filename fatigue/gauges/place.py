@@ -21,6 +21,7 @@ Flags = NDArray[np.bool_]
 ALIKE = float(np.cos(np.deg2rad(20.0)))  # of two normals
 MOST_DISTANCE = 2.0  # plate thicknesses from the mid-surface
 ROUNDING = 1e-6  # of the size of an element: a point this far outside an edge is on it
+CLIPPED = 1e-9  # likewise where a grid is cut: what it adds is left out again
 CORNERS = 4
 
 
@@ -151,14 +152,14 @@ def crossed(
     cuts = np.unique(np.concatenate([ends[np.isfinite(ends)], [-length / 2.0, length / 2.0]]))
     shares: dict[int, float] = {}
     for begin, end in pairwise(cuts.tolist()):
+        if end - begin <= ROUNDING * length:
+            continue
         s = (begin + end) / 2.0
         height = np.abs(middle[:, 2] + s * along[:, 2])
         there = (ends[:, 0] <= s) & (s <= ends[:, 1]) & (height <= MOST_DISTANCE * np.nan_to_num(some.thickness))
         if not there.any():
-            if end - begin > ROUNDING * length:
-                what = f"its grid of {length:g} mm leaves the plate {min(abs(begin), abs(end)):.4g} mm from its middle"
-                raise DataError(Problem("grid_off_plate", where, what, "Move it, or give a shorter grid_length_mm"))
-            continue
+            what = f"its grid of {length:g} mm leaves the plate {min(abs(begin), abs(end)):.4g} mm from its middle"
+            raise DataError(Problem("grid_off_plate", where, what, "Move it, or give a shorter grid_length_mm"))
         best = int(np.flatnonzero(there)[np.argmin(np.round(height[there], 9))])
         shares[int(near[best])] = shares.get(int(near[best]), 0.0) + float(end - begin)
     total = sum(shares.values())
@@ -173,7 +174,7 @@ def _clipped(xy: Floats, middle: Floats, along: Floats, half: float) -> Floats:
     edge = np.roll(xy, -1, axis=1) - xy
     to = middle[:, None, :] - xy
     size = np.ptp(xy, axis=1).max(axis=1)[:, None]
-    inside = edge[..., 0] * to[..., 1] - edge[..., 1] * to[..., 0] + ROUNDING * size**2
+    inside = edge[..., 0] * to[..., 1] - edge[..., 1] * to[..., 0] + CLIPPED * size**2
     slope = edge[..., 0] * along[:, None, 1] - edge[..., 1] * along[:, None, 0]
     with np.errstate(divide="ignore", invalid="ignore"):
         at = -inside / slope

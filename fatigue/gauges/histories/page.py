@@ -16,6 +16,7 @@ from fatigue.report.sections.embed import Figures
 
 PAGE = "gauges.html"
 UE = "10⁻⁶"
+OF_PLACES = "Gauges on the body, with the direction in which they read."
 
 
 def histories_page(found: Histories, body: Body, readings: Sequence[Reading], spectra: Sequence[GaugeSpectra]) -> str:
@@ -26,19 +27,17 @@ def histories_page(found: Histories, body: Body, readings: Sequence[Reading], sp
     if mesh is not None and mesh.element.size:
         outline = body_outline(mesh.node, mesh.xyz, mesh.corners[:, :4])
     lines = [line.xyz for line in body.lines]
-    where, of_where = places(found.gauges, lines, outline), "Gauges on the body; lines show which way they read."
-    drawn = exceedance(found.gauges, spectra)
+    where = figs.add("places", places(found.gauges, lines, outline), OF_PLACES, wide=True, of_curve=False)
     parts = [
         figs.add(f"history-{i}", one, f"{event}: {EXCERPT_S:g} s around the largest swing.", wide=True, of_curve=False)
         for i, (event, one) in enumerate(excerpts(found.gauges, readings))
     ]
+    drawn = exceedance(found.gauges, spectra)
     context = {
         "title": found.title,
         "found": found,
         "said": found.said(),
-        "where": figs.add(
-            "places", where, "Gauges on the body; lines show which way they read.", wide=True, of_curve=False
-        ),
+        "where": where,
         "excerpts": parts,
         "most_histories": MOST_HISTORIES,
         "spectrum": drawn and figs.add("exceedance", drawn, _of_spectra(len(found.gauges)), wide=True, of_curve=False),
@@ -57,10 +56,10 @@ def _of_spectra(gauges: int) -> str:
 
 def _gauges(rows: Sequence[GaugeRow]) -> PageTable:
     headings = (
-        Heading("gauge"),
-        Heading("kind"),
-        Heading("where"),
-        Heading("face"),
+        _words("gauge"),
+        _words("kind"),
+        _words("where"),
+        _words("face"),
         Heading("x", "mm", numeric=True),
         Heading("y", "mm", numeric=True),
         Heading("z", "mm", numeric=True),
@@ -87,13 +86,13 @@ def _gauges(rows: Sequence[GaugeRow]) -> PageTable:
 
 def _surety(rows: Sequence[GaugeRow]) -> PageTable:
     headings = (
-        Heading("gauge"),
+        _words("gauge"),
         Heading("rms", UE, numeric=True),
         Heading("rms", "MPa", numeric=True),
         Heading("turned by 5°", "-", numeric=True),
         Heading("neighbours", "-", numeric=True),
         Heading("on a neighbour", "-", numeric=True),
-        Heading("nearest weld"),
+        _words("nearest weld"),
         Heading("distance", "mm", numeric=True),
     )
     cells = tuple(
@@ -114,8 +113,8 @@ def _surety(rows: Sequence[GaugeRow]) -> PageTable:
 
 def _events(rows: Sequence[EventRow]) -> PageTable:
     headings = (
-        Heading("gauge"),
-        Heading("event"),
+        _words("gauge"),
+        _words("event"),
         Heading("rms", UE, numeric=True),
         Heading("largest range", UE, numeric=True),
         Heading("at 1 Hz", UE, numeric=True),
@@ -135,6 +134,11 @@ def _events(rows: Sequence[EventRow]) -> PageTable:
         for row in rows[:MOST_ROWS]
     )
     return PageTable("events-table", headings, cells, "Find a row" if len(rows) >= FILTERED_FROM else "")
+
+
+def _words(name: str) -> Heading:
+    """Head of a column of texts."""
+    return Heading(name, numeric=False)
 
 
 def _kind(row: GaugeRow) -> str:

@@ -11,9 +11,7 @@ from fatigue.shown import shortened, visible
 
 WIDTH = 110
 NO_ZERO = "Only changes are comparable with a measurement, which has no zero of its own: a mean is never compared."
-STAND_INS = (
-    "{} is stress at a weld toe, a stand-in for planning: a real grid sits beside the toe and sees another strain."
-)
+STAND_INS = "Stand-ins at weld toes, for planning only, as a real grid sits beside the toe and sees another strain: {}."
 
 
 @dataclass(frozen=True, slots=True)
