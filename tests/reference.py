@@ -16,6 +16,7 @@ from fatigue.cli import cli
 from fatigue.results.columns import TABLES
 from fatigue.results.dictionary.basis import BASIS
 from fatigue.results.dictionary.claims import CLAIMED
+from fatigue.results.dictionary.decided.correlation import CORRELATED
 from fatigue.results.dictionary.graph import GRAPH
 from fatigue.results.dictionary.study import STUDY
 from fatigue.study.study_file import Study
@@ -46,6 +47,7 @@ AREAS = (  # where the refusals of a room are met by users; the first that fits
     ("verify", "Result folders and documents"),
     ("decide", "Bench programmes"),
     ("bench", "Bench programmes"),
+    ("gauges", "Strain gauges"),
     ("study", "Studies of a vehicle"),
     ("vehicle", "Studies of a vehicle"),
     ("", "Commands and arguments"),
@@ -201,7 +203,7 @@ def _allowed(key: Key) -> str:
 def column_text() -> str:
     """Columns of every table with type, unit and meaning."""
     parts = []
-    for table, its in (TABLES | BASIS | GRAPH | STUDY | CLAIMED).items():
+    for table, its in (TABLES | BASIS | GRAPH | STUDY | CLAIMED | CORRELATED).items():
         rows = [f"| `{c.name}` | {c.type} | {c.unit} | {c.meaning} |" for c in its]
         parts.append(
             "\n".join([f"### {table}.parquet", "", "| column | type | unit | meaning |", "|---|---|---|---|", *rows])

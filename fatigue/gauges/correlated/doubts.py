@@ -13,25 +13,25 @@ SYNCHRONOUS = 0.02  # of the period of the upper end of the band: channels furth
 
 def doubts(comparisons: Sequence[Comparison], gauges: Mapping[str, Gauge], high_hz: float) -> Iterator[Problem]:
     """Warnings about the compared channels, in their order."""
-    yield from _stand_ins(comparisons, gauges)
+    yield from _stand_in_doubts(comparisons, gauges)
     for one in comparisons:
         where = f"channel '{one.channel.name}'"
         if one.kept_share < FEWEST_KEPT:
             what = f"{one.kept_share:.1%} of the samples are left, less than {FEWEST_KEPT:.0%}: there is no verdict"
-            yield Problem("few_kept", where, what, "Look at the flagged places; record again, or bridge short gaps")
+            yield Problem("few_samples_kept", where, what, "Look at the flagged places; record again, or bridge short gaps")
         drifts = [row for row in one.flags if row.flag == DRIFT]
         if drifts:
             what = f"its level drifts by {max(row.distance_ue for row in drifts):.3g} ue between blocks of 10 s"
             remedy = "Temperature, payload or curves? A lower end of the band takes all of them out; see lost_share"
-            yield Problem("drift", where, what, remedy)
+            yield Problem("channel_drift", where, what, remedy)
         if one.bridged:
             what = f"straight lines stand for {one.bridged} flagged samples, and are counted"
-            yield Problem("bridged", where, what, "Look at these places: a line cuts off whatever was there")
-        yield from _of_alignment(where, one)
-    yield from _apart(comparisons, high_hz)
+            yield Problem("gaps_bridged", where, what, "Look at these places: a line cuts off whatever was there")
+        yield from _alignment_doubts(where, one)
+    yield from _lag_doubts(comparisons, high_hz)
 
 
-def _stand_ins(comparisons: Sequence[Comparison], gauges: Mapping[str, Gauge]) -> Iterator[Problem]:
+def _stand_in_doubts(comparisons: Sequence[Comparison], gauges: Mapping[str, Gauge]) -> Iterator[Problem]:
     names = dict.fromkeys(name for one in comparisons for name, _ in one.channel.terms)
     toes = [name for name in names if gauges[name].kind == TOE]
     if toes:
@@ -40,7 +40,7 @@ def _stand_ins(comparisons: Sequence[Comparison], gauges: Mapping[str, Gauge]) -
         yield Problem("stand_in_compared", "gauges", what, remedy, len(toes))
 
 
-def _of_alignment(where: str, one: Comparison) -> Iterator[Problem]:
+def _alignment_doubts(where: str, one: Comparison) -> Iterator[Problem]:
     at = one.alignment
     if at is None:
         return
@@ -53,7 +53,7 @@ def _of_alignment(where: str, one: Comparison) -> Iterator[Problem]:
         yield Problem("sign_open", where, what, "Search within half a period by --max-lag: the sign is not proved")
 
 
-def _apart(comparisons: Sequence[Comparison], high_hz: float) -> Iterator[Problem]:
+def _lag_doubts(comparisons: Sequence[Comparison], high_hz: float) -> Iterator[Problem]:
     """Channels of one group whose lags differ."""
     groups: dict[str, list[Comparison]] = {}
     for one in comparisons:

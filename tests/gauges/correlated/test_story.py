@@ -166,7 +166,7 @@ def test_a_long_gap_leaves_no_verdict(made):
     found = told(made, made.record(strain=x))
     assert verdicts(found) == ["good", "good", "data"]
     assert found.comparisons[2].numbers.rms_ratio == pytest.approx(1.0, abs=0.1)
-    assert "few_kept" in [warning.code for warning in found.warnings]
+    assert "few_samples_kept" in [warning.code for warning in found.warnings]
     assert found.line.gauges == 2
 
 
@@ -193,7 +193,7 @@ def test_short_gaps_are_bridged_when_asked(made):
     assert first.bridged == 3
     assert [row.bridged for row in first.flags] == [True, False]
     assert first.kept_share == pytest.approx(1.0 - 4 / 2200)
-    assert "3 flagged samples" in next(w.what for w in found.warnings if w.code == "bridged")
+    assert "3 flagged samples" in next(w.what for w in found.warnings if w.code == "gaps_bridged")
 
 
 def test_a_drift_is_flagged_and_cuts_nothing(made):
@@ -204,7 +204,7 @@ def test_a_drift_is_flagged_and_cuts_nothing(made):
     found = told(made, record, km=3 * KM)
     assert found.comparisons[0].said_flags == "drift"
     assert found.comparisons[0].kept_share == 1.0
-    assert "drift" in [warning.code for warning in found.warnings]
+    assert "channel_drift" in [warning.code for warning in found.warnings]
     assert found.comparisons[0].numbers.band_ratios[0.0, 2.0] > 1.5
     without = told(made, record, km=3 * KM, low_hz=1.0)
     assert without.comparisons[0].numbers.equivalent_range_ratio < found.comparisons[0].numbers.equivalent_range_ratio
