@@ -1,8 +1,8 @@
 """A small case with a plate for strain gauges: a row of elements under fields whose strains are known.
 
 Four rectangles of 20 x 10 mm side by side along x, a triangle at their end, a flange upright on them, a sandwich over
-the first, far from the welds of ``small_case``. Mode 1 is tension along x of the element, 1, 2, 3, 4, 5 times as much
-from one to the next, mode 2 bending about its y, mode 7 shear.
+the first, far from the welds of ``small_case``. Mode 1 is tension along x, 1, 2, 3, 4, 5 times as much from one
+to the next, mode 2 bending about y, mode 7 shear.
 """
 
 from dataclasses import dataclass, field
@@ -32,7 +32,7 @@ ELEMENTS = {  # id: corners, property
     101: ((1, 2, 12, 11), 1),
     102: ((2, 3, 13, 12), 1),
     103: ((3, 4, 14, 13), 1),
-    104: ((5, 15, 14, 4), 1),  # its x runs along y
+    104: ((5, 15, 14, 4), 1),  # its own x runs along y
     105: ((5, 21, 15), 1),
     106: ((1, 2, 32, 31), 1),  # upright, normal -y
     107: ((11, 12, 2, 1), 2),  # a sandwich over element 101, its normal down

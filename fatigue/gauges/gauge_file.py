@@ -131,8 +131,6 @@ def read_gauges(path: Path, *, strict: bool = False) -> tuple[tuple[Gauge, ...],
     for i, gauge in enumerate(gauges):
         filled = _filled(given, ids, texts, length, i)
         table.problems.extend(_senseless(gauge, filled))
-    if not gauges:
-        table.problems.append(Problem("no_gauges", path.name, "the table has no rows", "Give one row for each grid"))
     table.refuse()
     return gauges, table.warnings
 
