@@ -18,7 +18,9 @@ def doubts(comparisons: Sequence[Comparison], gauges: Mapping[str, Gauge], high_
         where = f"channel '{one.channel.name}'"
         if one.kept_share < FEWEST_KEPT:
             what = f"{one.kept_share:.1%} of the samples are left, less than {FEWEST_KEPT:.0%}: there is no verdict"
-            yield Problem("few_samples_kept", where, what, "Look at the flagged places; record again, or bridge short gaps")
+            yield Problem(
+                "few_samples_kept", where, what, "Look at the flagged places; record again, or bridge short gaps"
+            )
         drifts = [row for row in one.flags if row.flag == DRIFT]
         if drifts:
             what = f"its level drifts by {max(row.distance_ue for row in drifts):.3g} ue between blocks of 10 s"

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from fatigue.files.hashes import sha256
 from fatigue.files.recorded import Filled
-from fatigue.gauges.correlated.page import PAGE, correlation_page
+from fatigue.gauges.correlated.page.page import PAGE, correlation_page
 from fatigue.gauges.correlated.summary import Correlation
 from fatigue.gauges.correlated.tables import tables_of
 from fatigue.results.dictionary.decided.correlation import CORRELATED

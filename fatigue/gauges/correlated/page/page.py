@@ -5,8 +5,8 @@ from collections.abc import Sequence
 from typing import Any
 
 from fatigue.gauges.correlated.compared import Comparison
-from fatigue.gauges.correlated.figures import densities, exceedances, histories, spike_samples
 from fatigue.gauges.correlated.flag_rows import DRIFT, FlagRow
+from fatigue.gauges.correlated.page.figures import densities, exceedances, histories, spike_samples
 from fatigue.gauges.correlated.summary import Correlation, verdicts_in_words
 from fatigue.gauges.correlated.verdict import (
     DATA,
@@ -62,7 +62,7 @@ def correlation_page(found: Correlation) -> str:
         "gauges": [_section(one, ids[id(one)], figs, found.is_aligned) for one in shown],
         "left_out": len(found.comparisons) - len(shown),
     }
-    return page_text("fatigue.gauges.correlated", "correlation.html", context, figs)
+    return page_text("fatigue.gauges.correlated.page", "correlation.html", context, figs)
 
 
 def _furthest_first(comparisons: Sequence[Comparison]) -> list[Comparison]:
