@@ -114,7 +114,8 @@ def with_record(**changed):
 
 def with_text(made):
     """A record in which a logger wrote a word."""
-    table = {"time_s": [0.0, 0.005, 0.01], "C1": ["1", "OVR", "2"], "C2": 0.0, "C3": 0.0}
+    words = ["1", "OVR", *["2"] * 998]
+    table = {"time_s": np.arange(1000) / 200.0, "C1": words, "C2": 0.0, "C3": 0.0}
     pd.DataFrame(table).to_csv(made.folder / "spoilt.csv", index=False)
     return {"record": "spoilt.csv"}
 

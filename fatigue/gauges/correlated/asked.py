@@ -76,12 +76,17 @@ def km_of_pass(case: Case, event: Event, duration_s: float) -> float:
     return length
 
 
-def band_of(asked: Asked, rates_hz: Sequence[float], top_mode_hz: float | None) -> tuple[float, float]:
+FEWEST_LINES = 8  # of the shortest record: fewer are no random process
+
+
+def band_of(
+    asked: Asked, rates_hz: Sequence[float], shortest_s: float, top_mode_hz: float | None
+) -> tuple[float, float]:
     """Band [lo, hi) that measured and simulated strain have in common [Hz] (measured_data 2.2).
 
     Raises
     ------
-    DataError : there is none, or it goes beyond half a sampling rate
+    DataError : there is none, it goes beyond half a sampling rate, or the shortest record has too few lines in it
     """
     slowest = min(rates_hz)
     low = 0.0 if asked.low_hz is None else asked.low_hz
@@ -94,6 +99,14 @@ def band_of(asked: Asked, rates_hz: Sequence[float], top_mode_hz: float | None) 
             f"{high:g} Hz is above half the lower sampling rate, {0.5 * slowest:g} Hz: there is no common band up to it"
         )
         raise DataError(Problem("no_common_band", "--band", what, "Give a lower upper end, or record faster"))
+    if (high - low) * shortest_s < FEWEST_LINES:
+        what = (
+            f"the band from {low:g} to {high:g} Hz has {(high - low) * shortest_s:.3g} lines of the shortest record, "
+        )
+        what += f"which lasts {shortest_s:.4g} s"
+        raise DataError(
+            Problem("no_common_band", "--band", what, f"Widen it to {FEWEST_LINES} lines, or record longer")
+        )
     return low, high
 
 

@@ -109,12 +109,14 @@ def correlate(
     opened, more = open_records(record_files, needed, rate_hz)
     warnings = [*warnings, *more]
     run = distances(opened, listed.reserved, asked.km)
-    low, high = band_of(asked, [rate_hz, *(record.rate_hz for record in opened)], top_mode_hz(body))
+    durations = [reading.strain.shape[1] * reading.step, *(record.samples * record.step for record in opened)]
+    rates = [rate_hz, *(record.rate_hz for record in opened)]
+    low, high = band_of(asked, rates, min(durations), top_mode_hz(body))
     k, k_source = exponent_of(asked, body)
     how = How(
         event=event,
         residue=reading.residue,
-        km=km_of_pass(case, of_event, reading.strain.shape[1] * reading.step),
+        km=km_of_pass(case, of_event, durations[0]),
         treatment=Treatment(low, high, rate_hz, asked.bridge, _common_samples(asked, reading, opened)),
         max_lag_s=asked.max_lag_s,
         k=k,

@@ -1,6 +1,7 @@
 """Records of a measurement: ``time_s`` and the columns of channels, each column read when it is asked for."""
 
-from collections.abc import Collection, Sequence
+import re
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
@@ -12,10 +13,22 @@ from fatigue.errors import DataError, FatigueError, Problem, refuse
 from fatigue.gauges.measured.channel_file import ODOMETER, SPEED, Channel
 from fatigue.gauges.measured.distance import KM_H_OF, KM_OF, filled, of_odometer, of_speed
 from fatigue.gauges.measured.rate import LARGEST_FACTOR, exact_ratio
+from fatigue.readers.neutral.event.load_units import stated_unit
 from fatigue.readers.neutral.history import uniform_step
 from fatigue.readers.neutral.tables import Table, open_table
 
 Floats = NDArray[np.float64]
+
+
+SPELLINGS = {
+    "ue": ("µe", "µε", "um/m", "µm/m", "microstrain", "ustrain", "µstrain"),
+    "MPa": ("n/mm2", "n/mm^2", "n/mm²"),
+    "km/h": ("kmh", "kph"),
+}
+_IN_NAME = re.compile(  # what else stands in brackets is part of a name
+    r"[\[(]\s*(ue|[µμ][eε]|[uµμ]m/m|[uµμ]strain|microstrain|m?V(?:/V)?|k?N|mm|M?Pa|N/mm\^?[2²]|km(?:/h)?|m(?:/s)?)\s*[\])]\s*$",
+    re.IGNORECASE,
+)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -66,7 +79,7 @@ def open_records(
     Raises
     ------
     DataError
-        the same file twice, no such column, times that are not uniform, a rate without an exact ratio to the other one
+        the same file twice, no such column, another unit, times that are not uniform, a rate without an exact ratio
     """
     problems = [
         Problem("duplicate", str(path), "is given twice among the records", "Give each record once")
@@ -80,13 +93,26 @@ def open_records(
         except FatigueError as error:
             problems += error.problems
     refuse(DataError, problems)
-    return tuple(found), [warning for record in found for warning in record.table.warnings]
+    told = [warning for record in found for warning in record.table.warnings]
+    return tuple(found), [warning for warning in told if warning.code != "unit_unused"]  # compared here
+
+
+def _unit_problems(path: Path, channel: Channel) -> Iterator[Problem]:
+    """A unit that a record states for a column, in its name, below it or beside it, and that the channel has not."""
+    in_name = _IN_NAME.search(channel.column)
+    stated = stated_unit(path, channel.column) or (in_name[1] if in_name else "")
+    plain = stated.strip(" []()").replace("μ", "µ").lower()  # the Greek letter and the sign of micro
+    if plain and plain != channel.unit.lower() and plain not in SPELLINGS.get(channel.unit, ()):
+        what = f"the unit is {stated}, and channel '{channel.name}' is in {channel.unit}"
+        remedy = "Correct the unit in the table of channels, or convert the values"
+        yield Problem("unit", f"{path.name}: column {channel.column}", what, remedy)
 
 
 def _opened(path: Path, channels: Collection[Channel], wanted_hz: float) -> Record:
     table = open_table(path)
     columns = ("time_s", *dict.fromkeys(channel.column for channel in channels))
     table.expect(columns, table.position, strict=False)
+    refuse(DataError, (problem for channel in channels for problem in _unit_problems(path, channel)))
     time = table.numbers("time_s").astype(np.float64)
     table.refuse()
     step = uniform_step(table, time)

@@ -24,7 +24,8 @@ HEADER_LINES = 100  # within which names are broken over several lines
 _ROOT_OF_MASS = r"(?:sqrt\((?:k?g|t)\)|(?:k?g|t)(?:\^|\*\*)0\.5)"  # of coordinates of modes of unit mass
 _UNIT = re.compile(
     r"(?:[\[(<].*[\])>]|-|s|sec|sek|ms|msec|us|µs|min|h|k?Hz|rad/s|mm|cm|m|in|inch|ft"
-    r"|k?N(?:[.* ]?m?m)?|lbf?|[hkMG]?Pa|m?bar|psi|k?g|t|m/s(?:\^?2|²)|deg|rad|°C?|K|%"
+    r"|k?N(?:[.* ]?m?m)?|lbf?|[hkMG]?Pa|m?bar|psi|k?g|t|m/s(?:\^?2|²)?|km(?:/h)?|deg|rad|°C?|K|%"
+    r"|ue|[µμ][eε]|[uµμ]m/m|m?V(?:/V)?"
     rf"|m?m[*· ]?{_ROOT_OF_MASS}|{_ROOT_OF_MASS}[*· ]?m?m)\Z",
     re.IGNORECASE,
 )

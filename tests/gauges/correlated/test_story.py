@@ -367,6 +367,11 @@ def test_files_of_somebody_else_and_inputs_are_not_overwritten(made, tmp_path):
         ({"exponent": math.inf}, CaseError, "inf is no finite number above 0"),
         ({"bridge": -1}, CaseError, "-1 samples are no gap"),
         ({"low_hz": 20.0}, DataError, "there is no common band: it would go from 20 to 18 Hz"),
+        (
+            {"high_hz": 0.5},
+            DataError,
+            "the band from 0 to 0.5 Hz has 5.5 lines of the shortest record, which lasts 11 s",
+        ),
         ({"high_hz": 120.0}, DataError, "120 Hz is above half the lower sampling rate, 100 Hz"),
     ],
 )

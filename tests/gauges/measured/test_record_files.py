@@ -112,3 +112,22 @@ def test_no_distance_is_refused(tmp_path):
         distances(opened, {}, None)
     with pytest.raises(DataError, match="the column has no value"):
         distances(opened, {"speed": SPEED}, None)
+
+
+def test_units_that_a_record_states_are_compared_with_those_of_the_channels(tmp_path):
+    """In the name of a column, in a row below the names, or nowhere; other spellings of the same are the same."""
+    volts = Channel("C1", "channels.csv: channel 'C1'", "SG [V]", (("A", 1.0),), "", "ue")
+    strain = Channel("C1", "channels.csv: channel 'C1'", "SG [µm/m]", (("A", 1.0),), "", "ue")
+    path = record(tmp_path / "r.csv", **{"SG [V]": 1.0, "SG [µm/m]": 2.0})
+    with pytest.raises(DataError, match=r"r.csv: column SG \[V\]: the unit is V, and channel 'C1' is in ue"):
+        open_records([path], [volts], 250.0)
+    open_records([path], [strain], 250.0)
+    left = Channel("C1", "channels.csv: channel 'C1'", "SG (left)", (("A", 1.0),), "", "ue")
+    open_records([record(tmp_path / "left.csv", **{"SG (left)": 1.0})], [left], 250.0)
+    (tmp_path / "rows.csv").write_text("time_s,SG 1,v\ns,mV/V,km/h\n0,1,5\n0.004,2,5\n0.008,3,5\n")
+    with pytest.raises(DataError, match=r"the unit is mV/V, and channel 'C1' is in ue"):
+        open_records([tmp_path / "rows.csv"], [A], 250.0)
+    raw = Channel("C1", "channels.csv: channel 'C1'", "SG 1", (("A", 1.0),), "", "mV/V")
+    (one,), warnings = open_records([tmp_path / "rows.csv"], [raw], 250.0)
+    assert one.read(raw).tolist() == [1.0, 2.0, 3.0]
+    assert warnings == []
