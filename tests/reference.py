@@ -17,6 +17,7 @@ from fatigue.results.columns import TABLES
 from fatigue.results.dictionary.basis import BASIS
 from fatigue.results.dictionary.claims import CLAIMED
 from fatigue.results.dictionary.decided.correlation import CORRELATED
+from fatigue.results.dictionary.decided.gauges import GAUGE_TABLES
 from fatigue.results.dictionary.graph import GRAPH
 from fatigue.results.dictionary.study import STUDY
 from fatigue.study.study_file import Study
@@ -203,7 +204,7 @@ def _allowed(key: Key) -> str:
 def column_text() -> str:
     """Columns of every table with type, unit and meaning."""
     parts = []
-    for table, its in (TABLES | BASIS | GRAPH | STUDY | CLAIMED | CORRELATED).items():
+    for table, its in (TABLES | BASIS | GAUGE_TABLES | CORRELATED | GRAPH | STUDY | CLAIMED).items():
         rows = [f"| `{c.name}` | {c.type} | {c.unit} | {c.meaning} |" for c in its]
         parts.append(
             "\n".join([f"### {table}.parquet", "", "| column | type | unit | meaning |", "|---|---|---|---|", *rows])

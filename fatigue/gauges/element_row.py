@@ -36,36 +36,37 @@ class ElementFrames:
     area: Floats
 
 
-def element_frames(nodes: Floats) -> ElementFrames:
-    """Frames of elements with nodes (..., n, 3) [mm]: n = 3 or 4 corners, 6 or 8 with mid-side nodes behind them.
+def element_frames(nodes: Floats, corners: int | None = None) -> ElementFrames:
+    """Frames of elements with nodes (..., n, 3) [mm], the first 3 or 4 of which are ``corners``; by default all.
 
-    A warped quadrilateral has its mean plane, that of its two diagonals.
+    Behind the corners stand mid-side nodes. A warped quadrilateral has its mean plane, that of its two diagonals.
 
     >>> float(element_frames(np.array([[0.0, 0.0, 0.0], [20.0, 0.0, 0.0], [20.0, 10.0, 0.0], [0.0, 10.0, 0.0]])).area)
     200.0
     """
-    corners = nodes[..., : 3 if nodes.shape[-2] in (3, 6) else 4, :]
-    first, second, third, last = (corners[..., i, :] for i in (0, 1, 2, -1))
+    around = nodes[..., :corners, :]
+    first, second, third, last = (around[..., i, :] for i in (0, 1, 2, -1))
     twice = np.cross(third - first, last - second)  # of a triangle, where third is last, too
     size = np.linalg.norm(twice, axis=-1, keepdims=True)
-    extent = np.ptp(corners, axis=-2).max(axis=-1, keepdims=True)
+    extent = np.ptp(around, axis=-2).max(axis=-1, keepdims=True)
     z = _unit(np.where(size > FLAT * extent**2, twice, np.nan))
     along = second - first
     x = _unit(along - (along * z).sum(axis=-1, keepdims=True) * z)
     axes = np.stack([x, np.cross(z, x), z], axis=-2)
-    centre = corners.mean(axis=-2)
+    centre = around.mean(axis=-2)
     xy = (nodes - centre[..., None, :]) @ np.swapaxes(axes[..., :2, :], -1, -2)
     return ElementFrames(axes, centre, xy, size[..., 0] / 2.0)
 
 
-def element_stress(nodes: Floats, thickness: float, force: Floats) -> Floats:
+def element_stress(nodes: Floats, thickness: float, force: Floats, corners: int | None = None) -> Floats:
     """Mean stress of one element on its faces from the forces and moments at its nodes (measured_data.md 1.2).
 
     Parameters
     ----------
-    nodes : (n, 3) of the element [mm], in its order
+    nodes : (n, 3) of the element [mm], in its order, mid-side nodes behind the corners
     thickness : of the plate [mm]
     force : (n, c, 6) forces and moments on the element [N, N mm], global axes, of each of c coordinates
+    corners : how many of the nodes are corners, by default all
 
     Returns
     -------
@@ -81,7 +82,7 @@ def element_stress(nodes: Floats, thickness: float, force: Floats) -> Floats:
     >>> element_stress(nodes, 2.0, force)[:, :, 0].tolist()
     [[5.0, 0.0, 0.0], [5.0, 0.0, 0.0]]
     """
-    frame, t = element_frames(nodes), thickness
+    frame, t = element_frames(nodes, corners), thickness
     x, y = frame.xy.T[:, :, None]
     fx, fy, fz = np.moveaxis(force[..., :3].astype(np.float64) @ frame.axes.T, -1, 0)
     mx, my = np.moveaxis(force[..., 3:].astype(np.float64) @ frame.axes[:2].T, -1, 0)

@@ -123,13 +123,13 @@ def read_element_loads(body: Body, *, strict: bool) -> tuple[ElementLoads, list[
     return ElementLoads(path.name, together(parts), body.coordinates, body.mesh), warnings
 
 
-def imbalance(nodes: Floats, force: Floats, largest: Floats) -> Floats:
+def imbalance(nodes: Floats, corners: int, force: Floats, largest: Floats) -> Floats:
     """How far an element is from balance in each coordinate (c,), of its largest term or 1e-3 of ``largest`` (c, 2).
 
     Of forces, and of moments about the axes in its plane: without those about the normal, which do no work, forces in
     the plane need not balance. ``largest`` are the largest force and moment of each coordinate on any element.
     """
-    frame = element_frames(nodes)
+    frame = element_frames(nodes, corners)
     f, m = force[..., :3], force[..., 3:]
     arm = np.broadcast_to((nodes - frame.centre)[:, None, :], f.shape)
     moment = (np.cross(arm, f) + m) @ frame.axes[:2].T
@@ -146,6 +146,12 @@ def _ids(shells: Shells, index: int) -> NDArray[np.int64]:
     ids = shells.nodes[index][shells.nodes[index] > 0]
     twice = ids.size == 4 and ids[3] == ids[2]
     return np.asarray(ids[:3] if twice else ids)
+
+
+def corner_count(shells: Shells, index: int) -> int:
+    """Corners of an element, 3 or 4: its first nodes."""
+    ids = shells.nodes[index]
+    return 3 if ids[3] in (0, ids[2]) else 4
 
 
 def _missing(path: Path, where: str) -> Iterator[Problem]:

@@ -81,7 +81,7 @@ class Grid:
 def angle_in(axes: Floats, direction: Floats) -> float:
     """Angle of a vector's part in a plane from its axis x towards y [deg]; NaN where it is along the normal.
 
-    >>> float(angle_in(np.eye(3), np.array([1.0, 1.0, 5.0])).round(9))
+    >>> round(angle_in(np.eye(3), np.array([1.0, 1.0, 5.0])), 9)
     45.0
     """
     x, y = axes[:2] @ direction

@@ -94,8 +94,10 @@ def material_of(gauge: Gauge, properties: Properties, pid: int | None) -> Materi
     raise DataError(Problem("no_material", gauge.where, what, remedy))
 
 
-def thickness_of(gauge: Gauge, properties: Properties, element: int, pid: int, own: float) -> float:
+def thickness_of(gauge: Gauge, properties: Properties, element: int, pid: int, own: float, doubt: str = "") -> float:
     """Thickness of the plate under a gauge on an element [mm]: confirmed by hand, else ``own``, else its property's.
+
+    ``doubt``: why the mesh says that its thickness is not that of a plate; empty: it does not.
 
     Raises
     ------
@@ -104,6 +106,9 @@ def thickness_of(gauge: Gauge, properties: Properties, element: int, pid: int, o
     if gauge.thickness is not None:
         return gauge.thickness
     remedy = "Move the gauge, or confirm the thickness of the plate there: thickness_mm in its row"
+    if doubt:
+        what = f"the stress of the surface of element {element} does not follow from its forces: {doubt}"
+        raise DataError(Problem("layered", gauge.where, what, remedy))
     section = properties.sections.get(pid)
     in_bending = np.nan if section is None else section.bending
     found = section.thickness if np.isnan(own) and section is not None else own

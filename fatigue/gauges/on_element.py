@@ -6,7 +6,7 @@ import numpy as np
 
 from fatigue.errors import DataError, Problem
 from fatigue.gauges.element_row import BOTTOM, TOP, element_stress
-from fatigue.gauges.forces import WARNED, ElementLoads, imbalance, read_element_loads
+from fatigue.gauges.forces import WARNED, ElementLoads, corner_count, imbalance, read_element_loads
 from fatigue.gauges.gauge_file import Gauge
 from fatigue.gauges.grid import Grid, Piece, angle_in, given_angle, vector_at
 from fatigue.gauges.instrument import Floats
@@ -93,7 +93,7 @@ def piece_on(gauge: Gauge, plates: Plates, index: int, normal: Floats, direction
     thickness = plate_thickness(gauge, plates, index)
     force = loads.of(shells, index, gauge.where)
     face = TOP if float(axes[2] @ normal) > 0.0 else BOTTOM
-    stress = element_stress(loads.nodes(shells, index), thickness, force)[face]
+    stress = element_stress(loads.nodes(shells, index), thickness, force, corner_count(shells, index))[face]
     return Piece(share, stress, angle_in(axes, direction))
 
 
@@ -106,14 +106,15 @@ def plate_thickness(gauge: Gauge, plates: Plates, index: int) -> float:
     """
     shells = plates.shells
     element, pid, own = int(shells.element[index]), int(shells.pid[index]), float(shells.thickness[index])
-    return thickness_of(gauge, plates.properties, element, pid, own)
+    doubt = plates.loads.mesh.unconfirmed.get(element, "")
+    return thickness_of(gauge, plates.properties, element, pid, own, doubt)
 
 
 def _doubts(gauge: Gauge, plates: Plates, index: int) -> list[Problem]:
     """Warning of an element whose forces are out of balance; worse is refused."""
     loads, element = plates.loads, int(plates.shells.element[index])
-    force = loads.of(plates.shells, index, gauge.where)
-    residual = float(imbalance(loads.nodes(plates.shells, index), force, plates.largest).max(initial=0.0))
+    force, corners = loads.of(plates.shells, index, gauge.where), corner_count(plates.shells, index)
+    residual = float(imbalance(loads.nodes(plates.shells, index), corners, force, plates.largest).max(initial=0.0))
     if residual <= WARNED:
         return []
     what = f"the forces of element {element} in {loads.file} are out of balance by {residual:.2g} of the largest"

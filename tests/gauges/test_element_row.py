@@ -187,3 +187,23 @@ def test_the_frame_follows_the_order_of_the_corners():
     one, other = element_stress(STRIP, T, bending), element_stress(turned_round, T, bending[[0, 3, 2, 1]])
     assert other[TOP, 1, 0] == pytest.approx(one[BOTTOM, 0, 0])  # x of the other runs along y
     assert np.isnan(element_frames(np.zeros((4, 3))).axes).all()
+
+
+def test_parabolic_elements_read_all_their_nodes():
+    """Tension on the consistent forces of parabolic edges, 1/6, 4/6, 1/6 of the edge's; triangle and quadrilateral."""
+    mid = (STRIP + np.roll(STRIP, -1, axis=0)) / 2.0
+    nodes = np.concatenate([STRIP, mid])
+    force = np.zeros((8, 1, 6))
+    for at, share in ((0, 1), (7, 4), (3, 1)):  # the edge at x = 0, and the one at x = 20
+        force[at, 0, 0] = -100.0 * share / 6.0
+    for at, share in ((1, 1), (5, 4), (2, 1)):
+        force[at, 0, 0] = 100.0 * share / 6.0
+    assert element_stress(nodes, T, force, 4)[TOP, :, 0] == pytest.approx([5.0, 0.0, 0.0], abs=1e-12)
+    corners = np.array([[0.0, 0.0, 0.0], [12.0, 0.0, 0.0], [0.0, 12.0, 0.0]])
+    triangle = np.concatenate([corners, (corners + np.roll(corners, -1, axis=0)) / 2.0])
+    force = np.zeros((6, 1, 6))
+    for at, share in ((0, 1), (5, 4), (2, 1)):  # the edge at x = 0 under -N, the slanted one under N cos 45
+        force[at, 0, 0] -= 12.0 * 10.0 * share / 6.0
+    for at, share in ((1, 1), (4, 4), (2, 1)):
+        force[at, 0, 0] += 12.0 * 10.0 * share / 6.0
+    assert element_stress(triangle, T, force, 3)[BOTTOM, :, 0] == pytest.approx([5.0, 0.0, 0.0], abs=1e-12)

@@ -248,6 +248,18 @@ def test_a_thickness_confirmed_by_hand_opens_a_layered_section(tmp_path):
     assert of[:2] == pytest.approx([2e6 * STRAIN, 4e6 * FACE_STRAIN])
 
 
+def test_a_section_that_a_conversion_doubts_is_refused(tmp_path):
+    """The column ``unconfirmed`` of the elements says why; by hand it can be confirmed."""
+    row = "s,element,101,,,,,,,0,,,,top,,,,,,{},,"
+    case = gauge_case(table(row.format("")))
+    case.elements["unconfirmed"] = ["PCOMP 1 is a layered section", *[""] * (len(case.elements) - 1)]
+    said = refused(case, tmp_path / "refused")
+    assert "surface of element 101 does not follow from its forces: PCOMP 1 is a layered section" in said
+    opened = gauge_case(table(row.format(2)))
+    opened.elements["unconfirmed"] = case.elements["unconfirmed"]
+    assert found(opened, tmp_path / "opened")["s"][0] == pytest.approx(1e6 * STRAIN)
+
+
 @pytest.mark.parametrize(
     ("row", "message"),
     [

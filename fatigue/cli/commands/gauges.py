@@ -40,6 +40,8 @@ def gauges() -> None:
 @into
 @click.option("--event", "events", multiple=True, help="This event only; may be given several times.")
 @click.option("--counted", is_flag=True, help="Histories at the instants that are counted, not at those of the files.")
+@click.option("--exponent", type=ABOVE_ZERO, help="Of the pseudo-damage; default: the first slope of the case's curve.")
+@click.option("--threads", type=click.IntRange(min=1), help="Worker threads; default: one per processor core.")
 @click.option("--csv", is_flag=True, help="Write the tables as CSV as well.")
 @click.option("--force", is_flag=True, help="Overwrite files in DIR that fatigue gauges histories did not write.")
 @strict
@@ -52,6 +54,8 @@ def histories(
     output: Path,
     events: tuple[str, ...],
     counted: bool,
+    exponent: float | None,
+    threads: int | None,
     csv: bool,
     force: bool,
     strict: bool,
@@ -77,6 +81,8 @@ def histories(
             into=output,
             events=events,
             counted=counted,
+            exponent=exponent,
+            threads=threads,
             csv=csv,
             force=force,
             strict=strict,

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.gauges.correlated.sides import Counted, Strain, counted, rms
-from fatigue.gauges.measured.band import band_edges, band_limited
+from fatigue.gauges.measured.band import band_edges, in_bands
 from fatigue.life.records.history import Residue
 
 Floats = NDArray[np.float64]
@@ -73,11 +73,9 @@ def side(records: Sequence[Strain], residue: Residue, km: float) -> Side:
 
 def compared(measured: Side, simulated: Side, rate_hz: float, band_hz: tuple[float, float], k: float) -> Numbers:
     """Numbers of two sides at one sampling rate, in one band."""
-    bands = {}
     edges = band_edges(*band_hz)
-    for low, high in pairwise(edges):
-        both = [_band_rms(one.records, rate_hz, low, high) for one in (measured, simulated)]
-        bands[low, high] = ratio(*both)
+    rms_of_bands = [band_rms(one.records, rate_hz, edges) for one in (measured, simulated)]
+    bands = {band: ratio(*both) for band, *both in zip(pairwise(edges), *rms_of_bands, strict=True)}
     ranges = {n: ratio(measured.cycles.range_exceeded(n), simulated.cycles.range_exceeded(n)) for n in PER_KM}
     return Numbers(
         rms_measured=rms(measured.records),
@@ -107,8 +105,10 @@ def ratio(measured: float, simulated: float) -> float:
     return measured / simulated
 
 
-def _band_rms(records: Sequence[Strain], rate_hz: float, low_hz: float, high_hz: float) -> float:
-    """Root mean square in a band inside that of the records [ue]; 0 of an empty one."""
-    inside = tuple(Strain(band_limited(one.x, rate_hz, low_hz, high_hz), one.segments) for one in records)
-    found = rms(inside)
-    return 0.0 if found < EMPTY * rms(tuple(records)) else found
+def band_rms(records: Sequence[Strain], rate_hz: float, edges_hz: Sequence[float]) -> list[float]:
+    """Root mean square of what is counted in every band between neighbouring edges [ue]; 0 of an empty one."""
+    signals = [in_bands(one.x, rate_hz, edges_hz) for one in records]
+    parts = zip(*signals, strict=True)
+    found = [rms(tuple(Strain(x, one.segments) for x, one in zip(part, records, strict=True))) for part in parts]
+    least = EMPTY * rms(tuple(records))
+    return [0.0 if value < least else value for value in found]

@@ -1,5 +1,8 @@
 """The band that measured and simulated strain are compared in; both sides go through the same filter."""
 
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -17,12 +20,17 @@ def band_limited(x: Floats, rate_hz: float, low_hz: float, high_hz: float) -> Fl
     >>> [float(band_limited(x, 100.0, 0.0, high).std().round(3)) for high in (5.0, 6.0)]
     [0.0, 0.707]
     """
+    return next(in_bands(x, rate_hz, (low_hz, high_hz)))
+
+
+def in_bands(x: Floats, rate_hz: float, edges_hz: Sequence[float]) -> Iterator[Floats]:
+    """What ``band_limited`` makes of signals (..., t) in every band between neighbouring edges, transformed once."""
     samples = x.shape[-1]
     lines = np.fft.rfft(x - x.mean(axis=-1, keepdims=True), axis=-1)
-    first, end = (bin_from(f, rate_hz, samples) for f in (low_hz, high_hz))
-    lines[..., :first] = 0.0
-    lines[..., end:] = 0.0
-    return np.asarray(np.fft.irfft(lines, samples, axis=-1))
+    for first, end in pairwise(bin_from(f, rate_hz, samples) for f in edges_hz):
+        inside = np.zeros_like(lines)
+        inside[..., first:end] = lines[..., first:end]
+        yield np.asarray(np.fft.irfft(inside, samples, axis=-1))
 
 
 def bin_from(frequency_hz: float, rate_hz: float, samples: int) -> int:

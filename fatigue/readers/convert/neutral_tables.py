@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from fatigue.readers.convert.audit.shell_rows import elastic_modes
 from fatigue.readers.convert.loads.names import UnitLoad
 from fatigue.readers.convert.modal_basis import SimulationModes, mode_masses, mode_scale
-from fatigue.readers.convert.weld_lines import FoundWelds
+from fatigue.readers.convert.weld_lines import FoundWelds, unconfirmed_elements
 from fatigue.readers.foreign.fe.model import FeModel
 from fatigue.readers.foreign.fe.results import FeResults
 from fatigue.readers.foreign.histories.foreign_history import ForeignHistory
@@ -26,13 +26,19 @@ def nodes_table(model: FeModel) -> pa.Table:
 
 
 def elements_table(model: FeModel) -> pa.Table:
-    """Table of the shells, their corners n1 ... n4 and, where there are any, mid-side nodes n5 ... n8; 0 for none."""
+    """Table of the shells, their corners n1 ... n4 and, where there are any, mid-side nodes n5 ... n8; 0 for none.
+
+    Where the thickness of some is not that of a plate, ``unconfirmed`` says why, for strain gauges on them.
+    """
     mesh = model.mesh
     around = np.concatenate([mesh.corner, mesh.mid], axis=1)
     ids = np.where(around >= 0, mesh.node[around], 0)
     columns = {f"n{k + 1}": ids[:, k] for k in range(8) if k < 4 or ids[:, 4:].any()}
     thickness = pa.array(np.where(mesh.thickness > 0, mesh.thickness, np.nan), from_pandas=True)
-    return pa.table({"element": mesh.element, **columns, "pid": mesh.pid, "thickness_mm": thickness})
+    columns |= {"pid": mesh.pid, "thickness_mm": thickness}
+    if doubts := unconfirmed_elements(model):
+        columns["unconfirmed"] = pa.array([doubts.get(element) for element in mesh.element.tolist()], pa.string())
+    return pa.table({"element": mesh.element, **columns})
 
 
 def forces_table(results: FeResults, force: NDArray[np.floating], rows: NDArray[np.int64]) -> pa.Table:

@@ -64,7 +64,7 @@ def find_welds(model: FeModel, sources: WeldSources) -> FoundWelds:
         found = {edge: key for edge, key in classify(topo).items() if edge not in marked}
         for kinds in (True, False):  # a line of candidates does not end one of welds
             cuts += trace(topo, {edge: key for edge, key in found.items() if (key[0] in WELDS) == kinds})
-    elements = _unconfirmed_elements(model)
+    elements = unconfirmed_elements(model)
     rows, unconfirmed = [], {}
     for cut in cuts:
         is_weld = cut.kind not in CANDIDATES or sources.candidates
@@ -132,7 +132,7 @@ _CANDIDATE_REASON = {
 }
 
 
-def _unconfirmed_elements(model: FeModel) -> dict[int, str]:
+def unconfirmed_elements(model: FeModel) -> dict[int, str]:
     """Why the thickness of an element cannot be used unless it is confirmed, by element id."""
     mesh = model.mesh
     found = {

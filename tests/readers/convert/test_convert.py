@@ -199,6 +199,9 @@ def test_layered_section_needs_a_confirmation(files):
     first = convert(files)
     layered = [row for row in first.welds if row.pid == 1]
     assert all(row.status == "excluded" and "layered" in row.reason for row in layered)
+    elements = pq.read_table(files.out / "elements.parquet").to_pandas()
+    assert elements.loc[elements.pid == 1, "unconfirmed"].str.contains("layered").all()
+    assert elements.loc[elements.pid != 1, "unconfirmed"].isna().all()
     register = files.out / "welds_register.csv"
     plain = ["weld,line,status,thickness_mm,confirmed"]
     plain += [f"{row.weld},{row.line},assess,{7.5 if row.pid == 1 else 6},true" for row in first.welds]

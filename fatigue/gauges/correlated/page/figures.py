@@ -61,7 +61,7 @@ def spike_samples(spikes: Sequence[SpikeShown]) -> go.Figure | None:
     """Raw samples around the largest spikes, one panel each; None without any."""
     if not spikes:
         return None
-    columns = min(4, len(spikes))
+    columns = min(3, len(spikes))
     rows = -(-len(spikes) // columns)
     data: list[Trace] = []
     layout: dict[str, Trace] = {}

@@ -1,6 +1,7 @@
 """The mesh of a body in the neutral format: nodes and shell elements around the welds."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -22,6 +23,7 @@ class Mesh:
     corners : (e, 8) node ids n1 ... n8 of each element, 0 where it has fewer
     pid : (e,) property id, 0 where the file gives none
     thickness : (e,) thickness [mm], NaN where the file gives none
+    unconfirmed : why the thickness of an element is not that of a plate, by its id; of those that the file names
     """
 
     node: NDArray[np.int64]
@@ -30,13 +32,14 @@ class Mesh:
     corners: NDArray[np.int64]
     pid: NDArray[np.int64]
     thickness: NDArray[np.float64]
+    unconfirmed: Mapping[int, str] = field(default_factory=dict)
 
 
 def read_mesh(nodes: Path, elements: Path | None, *, strict: bool) -> tuple[Mesh, list[Problem]]:
     """Read the mesh: nodes ``node, x_mm, y_mm, z_mm``; elements ``element, n1 ... n3``, optional ``n4 ... n8``.
 
-    Corner nodes run around the element, n5 ... n8 are its mid-side nodes, empty where the element has fewer; ``pid``
-    and ``thickness_mm`` of an element are optional.
+    Corner nodes run around the element, n5 ... n8 are its mid-side nodes, empty where the element has fewer. Optional
+    are ``pid``, ``thickness_mm``, and ``unconfirmed``: why this thickness is not that of a plate.
     """
     table = open_table(nodes)
     table.expect(("node", "x_mm", "y_mm", "z_mm"), (), strict=strict)
@@ -50,9 +53,10 @@ def read_mesh(nodes: Path, elements: Path | None, *, strict: bool) -> tuple[Mesh
         none = np.zeros(0, dtype=np.int64)
         return Mesh(node, xyz, none, np.zeros((0, 8), dtype=np.int64), none, np.zeros(0)), table.warnings
     warnings = table.warnings
-    table = open_table(elements)
+    table = open_table(elements, texts=("unconfirmed",))
     corners_required, corners_optional = ("n1", "n2", "n3"), ("n4", "n5", "n6", "n7", "n8")
-    table.expect(("element", *corners_required), (*corners_optional, "pid", "thickness_mm"), strict=strict)
+    others = (*corners_optional, "pid", "thickness_mm", "unconfirmed")
+    table.expect(("element", *corners_required), others, strict=strict)
     element = table.integers("element")
     corners = np.column_stack(
         [
@@ -70,5 +74,8 @@ def read_mesh(nodes: Path, elements: Path | None, *, strict: bool) -> tuple[Mesh
         )
     table.refuse()
     by_id = np.argsort(element)
-    mesh = Mesh(node, xyz, element[by_id], corners[by_id], pid[by_id], thickness[by_id])
+    reasons = table.texts("unconfirmed", default="") if "unconfirmed" in table.position else []
+    doubts = {one: reason for one, reason in zip(element.tolist(), reasons, strict=False) if reason}
+    table.refuse()
+    mesh = Mesh(node, xyz, element[by_id], corners[by_id], pid[by_id], thickness[by_id], doubts)
     return mesh, warnings + table.warnings

@@ -8,7 +8,7 @@ from typing import Any
 
 from fatigue.case import Case, Event
 from fatigue.case.checks import CHECK_FILES
-from fatigue.case.tables import BASIS_FILES, BODY_FILES
+from fatigue.case.tables import BASIS_FILES, BODY_FILES, GAUGE_FILES
 from fatigue.study.variants.varied.toml_text import toml_text
 
 CASE_FILE = "case.toml"
@@ -76,9 +76,9 @@ def body_files(case: Case, events: Collection[str]) -> dict[str, Path]:
 def _places(tables: dict[str, Any]) -> Iterator[tuple[dict[str, Any], str]]:
     """Every table and key that names a file, outside the events."""
     body = tables["body"]
-    yield from ((body, key) for key in (*BODY_FILES, *BASIS_FILES, "register") if key in body)
+    yield from ((body, key) for key in (*BODY_FILES, *BASIS_FILES, *GAUGE_FILES, "register") if key in body)
     for load in body.get("unit_load", ()):
-        yield from ((load, key) for key in ("nodal_forces", "element_forces") if key in load)
+        yield from ((load, key) for key in ("nodal_forces", "element_forces", "gauge_forces") if key in load)
     checks = tables.get("checks", {})
     yield from ((checks, key) for key in CHECK_FILES if key in checks)
     ride = tables.get("ride", {})

@@ -11,7 +11,7 @@ from typing import Any
 from fatigue.case import Case, load_case
 from fatigue.case.checks import CHECK_FILES
 from fatigue.case.load import parsed_case
-from fatigue.case.tables import BASIS_FILES, BODY_FILES
+from fatigue.case.tables import BASIS_FILES, BODY_FILES, GAUGE_FILES
 from fatigue.errors import CaseError, Problem, refuse
 from fatigue.study.study_file import Study
 from fatigue.study.variants.runs.case_of_run import way
@@ -22,7 +22,7 @@ from fatigue.vehicle.definition import Vehicle
 from fatigue.vehicle.settled import settled
 
 VEHICLE, CASE, OWN = "vehicle.", "case.", "own."
-FILES = (*BODY_FILES, *BASIS_FILES, *CHECK_FILES, "register", "history", "vibration_table")
+FILES = (*BODY_FILES, *BASIS_FILES, *GAUGE_FILES, *CHECK_FILES, "register", "history", "vibration_table")
 
 
 @dataclass(frozen=True)
