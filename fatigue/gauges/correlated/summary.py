@@ -78,7 +78,7 @@ class Correlation:
             return f"Damage ratio of the one gauge that was judged: {line.damage_ratio:.3g}."
         return (
             f"Damage ratio over {line.gauges} judged gauges: geometric mean {line.damage_ratio:.3g}, "
-            f"log-sd {line.log_sd:.3g} (a factor of {math.exp(line.log_sd):.3g})."
+            f"log-sd {line.log_sd:.3f} (a factor of {math.exp(line.log_sd):.3g})."
         )
 
     def as_record(self) -> dict[str, Any]:

@@ -21,7 +21,7 @@ Floats = NDArray[np.float64]
 
 
 SPELLINGS = {
-    "ue": ("µe", "µε", "um/m", "µm/m", "microstrain", "ustrain", "µstrain"),
+    "ue": ("1e-6", "µe", "µε", "um/m", "µm/m", "microstrain", "ustrain", "µstrain"),
     "MPa": ("n/mm2", "n/mm^2", "n/mm²"),
     "km/h": ("kmh", "kph"),
 }
