@@ -1,6 +1,7 @@
 """Figures of one gauge: histories around the largest cycles, spectra, exceedance, samples around spikes."""
 
 from collections.abc import Sequence
+from html import escape
 
 import numpy as np
 import plotly.graph_objects as go
@@ -19,13 +20,24 @@ MOST_DECADES = 6.0  # of density and exceedance
 
 
 def histories(one: Comparison) -> go.Figure | None:
-    """Strain of both sides around the largest cycles; None without any."""
+    """Strain of both sides around the largest cycles; None without any.
+
+    Aligned sides lie on each other. Others are two places of two records: one above the other, on one scale.
+    """
     excerpts = one.drawn.excerpts
     if not excerpts:
         return None
     data = [_line(e.side, e.time, e.strain, "%{x:.4g} s: %{y:.4g} ue") for e in excerpts]
-    title = "time from the middle of the largest cycle [s]" if one.alignment is None else "time of the simulation [s]"
-    return figure(data, height=300, xaxis=axis(title), yaxis=axis("strain in the band [ue]"))
+    if one.alignment is not None:
+        title = axis("time of the simulation [s]")
+        return figure(data, height=300, xaxis=title, yaxis=axis("strain in the band [ue]"))
+    largest = 1.05 * max(float(np.nanmax(np.abs(e.strain))) for e in excerpts) or 1.0
+    layout: dict[str, Trace] = {}
+    for trace, name, domain in zip(data, ("", "2"), ([0.54, 1.0], [0.0, 0.46]), strict=False):
+        trace.update(yaxis=f"y{name}", line=trace["line"] | {"dash": "solid"})
+        layout[f"yaxis{name}"] = axis("strain [ue]", domain=domain, range=[-largest, largest])
+    title = axis("time from the middle of the largest cycle [s]", anchor=data[-1]["yaxis"])
+    return figure(data, height=420, xaxis=title, **layout)
 
 
 def densities(one: Comparison) -> go.Figure:
@@ -74,12 +86,12 @@ def spike_samples(spikes: Sequence[SpikeShown]) -> go.Figure | None:
         layout[f"xaxis{name}"] = axis("", domain=across, anchor=f"y{name}", nticks=3)
         layout[f"yaxis{name}"] = axis("raw [ue]" if column == 0 else "", domain=down, anchor=f"x{name}", nticks=4)
         data += [
-            _samples(name, spike.time, spike.strain, QUIET, "lines+markers"),
-            _samples(name, spike.time[spike.marked], spike.strain[spike.marked], MISSED, "markers"),
+            _samples(name, spike, np.ones_like(spike.marked), QUIET, "lines+markers"),
+            _samples(name, spike, spike.marked, MISSED, "markers"),
         ]
         notes.append(
             {
-                "text": f"{middle:.3f} s, {shortened(visible(spike.record), 24)}",
+                "text": f"{middle:.3f} s",
                 "xref": f"x{name} domain",
                 "yref": f"y{name} domain",
                 "x": 0.0,
@@ -105,17 +117,17 @@ def _line(side: str, x: Floats, y: Floats, hover: str) -> Trace:
     }
 
 
-def _samples(panel: str, x: Floats, y: Floats, colour: str, mode: str) -> Trace:
+def _samples(panel: str, spike: SpikeShown, which: NDArray[np.bool_], colour: str, mode: str) -> Trace:
     return {
         "type": "scatter",
         "mode": mode,
-        "x": x.tolist(),
-        "y": single(y),
+        "x": spike.time[which].tolist(),  # seconds of a long record want double precision
+        "y": single(spike.strain[which]),
         "xaxis": f"x{panel}",
         "yaxis": f"y{panel}",
         "line": {"color": colour, "width": 1},
         "marker": {"color": colour, "size": 6 if mode == "markers" else 3},
-        "hovertemplate": "%{x:.6g} s: %{y:.5g} ue<extra></extra>",
+        "hovertemplate": f"%{{x:.4f}} s: %{{y:.5g}} ue<extra>{escape(shortened(visible(spike.record), 40))}</extra>",
     }
 
 

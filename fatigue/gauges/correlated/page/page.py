@@ -140,7 +140,7 @@ def _shown(figs: Figures, id_: str, drawn: Any, caption: str, *, wide: bool = Fa
 def _caption(gauge: str, is_aligned: bool) -> str:
     if is_aligned:
         return f"Strain at {gauge} around the largest measured cycle, the measured one moved back by its lag."
-    return f"Strain at {gauge} around the largest cycle of each side: two places of two different records."
+    return f"Strain in the band at {gauge} around the largest cycle of each side: two places of two records."
 
 
 def _said(one: Comparison) -> str:
