@@ -6,7 +6,7 @@ from datetime import datetime
 
 from fatigue.case import Case, Event, check_distance, event_length_km
 from fatigue.errors import CaseError, DataError, Problem
-from fatigue.pipeline.solve.body import Body
+from fatigue.pipeline.solve.known_curves import curves_of_case
 from fatigue.shown import few, visible
 from fatigue.spectrum.moments import default_upper_hz
 
@@ -110,12 +110,10 @@ def band_of(
     return low, high
 
 
-def exponent_of(asked: Asked, body: Body) -> tuple[float, str]:
+def exponent_of(asked: Asked, case: Case) -> tuple[float, str]:
     """Exponent k of the pseudo-damage, and where it is from."""
     if asked.exponent is not None:
         return asked.exponent, "as asked"
-    curve = body.curves[body.case.curve.name].curve if body.case.curve.name in body.curves else None
-    if curve is None:
-        curve = next(iter(body.curves.values())).curve
-    k = float(curve.slopes[0])
-    return k, f"{'1/h' if curve.applies == 'dS' else 'first slope'} of curve '{curve.name}'"
+    curve = curves_of_case(case)[case.curve.name]
+    is_master = curve.applies == "dS" and len(curve.slopes) == 1
+    return float(curve.slopes[0]), f"{'1/h' if is_master else 'first slope'} of curve '{curve.name}'"

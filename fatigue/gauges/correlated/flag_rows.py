@@ -12,6 +12,7 @@ from fatigue.gauges.measured.flags import runs
 Floats = NDArray[np.float64]
 
 DRIFT = "drift"
+FLAGS = ("missing", "stuck", "clipped", "spike", DRIFT)
 AROUND_S = 0.1  # of a spike that is shown
 FEWEST_AROUND = 6  # samples on each side
 
@@ -69,12 +70,17 @@ def flag_rows(gauge: str, channel: str, records: Sequence[Prepared]) -> Iterator
             yield FlagRow(gauge, channel, name, DRIFT, start, end, samples, False, np.nan, drift)
 
 
-def flags_in_words(rows: Sequence[FlagRow]) -> str:
-    """Number of flagged samples of each kind, in the order in which they are looked for; "" of none."""
+def flag_counts(rows: Sequence[FlagRow]) -> dict[str, int]:
+    """Flagged samples of each kind, in the order in which they are looked for; of drift the records that have it."""
     counts: dict[str, int] = {}
     for row in rows:
         counts[row.flag] = counts.get(row.flag, 0) + (row.samples if row.flag != DRIFT else 1)
-    return ", ".join(flag if flag == DRIFT else f"{flag} {n}" for flag, n in sorted(counts.items(), key=_place))
+    return {flag: counts[flag] for flag in FLAGS if flag in counts}
+
+
+def flags_in_words(rows: Sequence[FlagRow]) -> str:
+    """Flagged samples of each kind, as "missing 3, drift"; "" of none."""
+    return ", ".join(flag if flag == DRIFT else f"{flag} {n}" for flag, n in flag_counts(rows).items())
 
 
 def spikes_shown(records: Sequence[Prepared], most: int) -> tuple[SpikeShown, ...]:
@@ -94,7 +100,3 @@ def _largest(values: Floats) -> float:
     """Value of the largest size, NaN of none."""
     finite = values[np.isfinite(values)]
     return float(finite[np.abs(finite).argmax()]) if finite.size else np.nan
-
-
-def _place(item: tuple[str, int]) -> int:
-    return ("missing", "stuck", "clipped", "spike", DRIFT).index(item[0])

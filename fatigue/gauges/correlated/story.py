@@ -112,7 +112,7 @@ def correlate(
     durations = [reading.strain.shape[1] * reading.step, *(record.samples * record.step for record in opened)]
     rates = [rate_hz, *(record.rate_hz for record in opened)]
     low, high = band_of(asked, rates, min(durations), top_mode_hz(body))
-    k, k_source = exponent_of(asked, body)
+    k, k_source = exponent_of(asked, case)
     how = How(
         event=event,
         residue=reading.residue,

@@ -8,6 +8,7 @@ from typing import Any
 
 from fatigue.errors import Problem
 from fatigue.gauges.correlated.compared import Comparison
+from fatigue.gauges.correlated.flag_rows import flag_counts
 from fatigue.gauges.correlated.verdict import JUDGED, SUSPECT, YARDSTICK, CaseLine, case_line
 from fatigue.shown import shortened, visible
 
@@ -144,7 +145,7 @@ def _of_gauge(one: Comparison) -> dict[str, Any]:
         "lost_km": one.km_lost,
         "kept_share": one.kept_share,
         "bridged_samples": one.bridged,
-        "flags": _counts(one),
+        "flags": flag_counts(one.flags),
         "rms_measured_ue": numbers.rms_measured,
         "rms_simulated_ue": numbers.rms_simulated,
         "rms_ratio": numbers.rms_ratio,
@@ -159,14 +160,6 @@ def _of_gauge(one: Comparison) -> dict[str, Any]:
         "correlation": None if alignment is None else alignment.correlation,
         "coherence_band": one.coherence,
     }
-
-
-def _counts(one: Comparison) -> dict[str, int]:
-    """Flagged samples by kind."""
-    found: dict[str, int] = {}
-    for row in one.flags:
-        found[row.flag] = found.get(row.flag, 0) + row.samples
-    return found
 
 
 def _number(value: float) -> str:

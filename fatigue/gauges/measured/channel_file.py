@@ -106,7 +106,7 @@ def read_channels(path: Path, gauges: Collection[str], *, strict: bool = False) 
         channels.append(channel)
     table.refuse()
     strain = tuple(channel for channel in channels if not channel.reserved)
-    refuse(DataError, _as_a_whole(path, channels, strain))
+    refuse(DataError, _as_a_whole(path, channels, strain, gauges))
     reserved = {channel.reserved: channel for channel in channels if channel.reserved}
     return Channels(strain, reserved, tuple(table.warnings))
 
@@ -156,9 +156,15 @@ def _unit_problems(channel: Channel) -> Iterator[Problem]:
         yield Problem("unused_modulus", channel.where, what, "Leave E_MPa empty, or correct the unit to MPa")
 
 
-def _as_a_whole(path: Path, channels: list[Channel], strain: tuple[Channel, ...]) -> Iterator[Problem]:
+def _as_a_whole(
+    path: Path, channels: list[Channel], strain: tuple[Channel, ...], gauges: Collection[str]
+) -> Iterator[Problem]:
+    """What is wrong with the table beside its rows."""
     if not strain:
         yield Problem("no_channels", path.name, "names no channel of a gauge", "Give one row for each channel")
     for name in RESERVED:
         if len([1 for channel in channels if channel.reserved == name]) > 1:
             yield Problem("duplicate", path.name, f"has several channels of {name}", "Keep one of them")
+        if name in gauges:
+            what = f"{name!r} names what a channel measures, and a gauge has this name"
+            yield Problem("reserved_name", path.name, what, "Rename the gauge")

@@ -65,6 +65,12 @@ def test_mistakes_are_told(tmp_path, text, said):
     assert "channels.csv" in str(caught.value)
 
 
+def test_a_gauge_may_not_have_a_reserved_name(tmp_path):
+    """A channel of the gauge "speed" would be a speed."""
+    with pytest.raises(DataError, match="'speed' names what a channel measures, and a gauge has this name"):
+        channels(tmp_path, "channel,unit,gauge\nC1,ue,A\n", gauges=("A", "speed"))
+
+
 def test_all_mistakes_are_told_at_once(tmp_path):
     """One line each."""
     with pytest.raises(DataError) as caught:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fatigue.gauges.measured.flags import drift_of, flags_of, median_distance, runs, spikes, stuck_samples
+from fatigue.gauges.measured.flags import Drift, drift_of, flags_of, median_distance, runs, spikes, stuck_samples
 from fatigue.gauges.measured.segments import cut_at
 from fatigue.life.counting.rainflow import rainflow
 from tests.gauges.measured.tones import flagged_tones, tones
@@ -88,6 +88,7 @@ def test_clipping_is_at_999_per_mille_of_full_scale_on_both_sides():
     """Both ends of the range; without a full scale nothing is clipped."""
     x = np.array([0.0, 99.8, 99.9, -99.95, 50.0])
     assert flags_of(x, 250.0, 100.0).clipped.tolist() == [False, False, True, True, False]
+    assert not flags_of(np.array([np.nan, 0.1, 0.2]), 250.0, 0.5).clipped.any()
     assert not flags_of(x, 250.0).clipped.any()
 
 
@@ -127,6 +128,12 @@ def test_drift_is_flagged_from_a_quarter_of_the_span():
         found = drift_of(tones(t) + rise * span * t / 60.0, 250.0)
         assert found.range == pytest.approx(rise * span * 50.0 / 60.0, rel=0.05)
         assert found.is_flagged == (rise > 0.3)
+
+
+def test_drift_is_beyond_a_quarter():
+    """Exactly a quarter of the span is none."""
+    assert not Drift(0.25, 1.0).is_flagged
+    assert Drift(0.251, 1.0).is_flagged
 
 
 def test_drift_wants_two_blocks_of_ten_seconds():
