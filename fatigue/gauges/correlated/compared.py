@@ -34,7 +34,7 @@ class How:
     event, residue, km : of the simulation: its name, how its cycles close, distance of a pass [km]
     treatment : of both sides
     max_lag_s : within which the lag of a replayed record is looked for; None: the records are not aligned
-    k : exponent of the pseudo-damage
+    k, k_source : exponent of the pseudo-damage, and where it is from
     segment_s : of the spectra
     """
 
@@ -44,6 +44,7 @@ class How:
     treatment: Treatment
     max_lag_s: float | None
     k: float
+    k_source: str
     segment_s: float
 
     @property

@@ -62,6 +62,11 @@ class Record:
         """Sampling rate."""
         return 1.0 / self.step
 
+    @property
+    def samples_at_ratio(self) -> int:
+        """Number of samples at the rate of the simulation."""
+        return -(-self.samples * self.ratio.numerator // self.ratio.denominator)
+
     def read(self, channel: Channel) -> Floats:
         """Raw samples (t,) of a channel, NaN where there are none."""
         values = self.table.samples(channel.column)
