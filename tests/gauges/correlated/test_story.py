@@ -178,17 +178,22 @@ def test_a_long_gap_leaves_no_verdict(made):
     assert found.line.gauges == 2
 
 
-def test_a_dead_channel_has_no_numbers(made):
-    """All samples stuck or missing: nothing is counted, drawn or divided."""
+@pytest.mark.parametrize("max_lag_s", [None, 0.1])
+def test_a_dead_channel_has_no_numbers(made, tmp_path, max_lag_s):
+    """All samples stuck or missing: nothing is counted, drawn or divided; tables and page are written all the same."""
     x = made.strain.copy()
     x[0] = 4.0
     x[1] = np.nan
-    found = told(made, made.record(strain=x), max_lag_s=0.1)
+    asked = Asked(km=KM, max_lag_s=max_lag_s)
+    record = made.record(strain=x)
+    found = correlate(made.case, made.gauges, made.channels(), [record], event=EVENT, into=tmp_path, asked=asked)
     assert verdicts(found) == ["data", "data", "good"]
     assert math.isnan(found.comparisons[0].numbers.damage_ratio)
     assert found.comparisons[1].km == 0.0
     json.dumps(found.as_record())
     assert "data" in found.as_text()
+    assert pd.read_parquet(tmp_path / "correlation.parquet")["rms_ratio"].isna().tolist() == [True, True, False]
+    assert "? data" in (tmp_path / "correlation.html").read_text()
 
 
 def test_short_gaps_are_bridged_when_asked(made):

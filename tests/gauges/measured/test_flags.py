@@ -105,6 +105,7 @@ def test_distances_at_the_ends_and_beside_gaps_are_not_known():
     x[6] = np.nan
     assert np.flatnonzero(np.isnan(median_distance(x))).tolist() == [0, 1, 4, 5, 6, 7, 8, 10, 11]
     assert np.isnan(median_distance(np.arange(4.0))).all()
+    assert median_distance(np.array([0.0, 1, 7, 2, 1]))[2] == 6.0
 
 
 def test_distances_are_those_of_sorted_windows():
