@@ -32,24 +32,27 @@ MOVING = ("column", "file", "values")  # ways in which an event has a load that 
 class ElementLoads:
     """Element forces of all coordinates, and where the nodes of an element are.
 
-    ``file`` names them in messages, ``forces`` have the numbers of the coordinates as their modes; ``mesh`` has the
-    nodes.
+    Attributes
+    ----------
+    file : of the forces of the modes, for messages
+    forces : with the numbers of the coordinates as their modes
+    coordinates : of the body
+    given : (c,) coordinates whose forces have to be there: all modes, and unit loads that have a file
+    balanced : (c,) those whose forces are in balance: elastic modes, unit loads that no element carries itself
+    mesh : has the nodes
     """
 
     file: str
     forces: ElementForces
     coordinates: Coordinates
+    given: NDArray[np.bool_]
+    balanced: NDArray[np.bool_]
     mesh: Mesh
 
     @property
     def number(self) -> NDArray[np.int64]:
         """Numbers of the coordinates (c,)."""
         return self.coordinates.number
-
-    def has(self, element: int) -> bool:
-        """Whether there are forces on an element."""
-        at = int(np.searchsorted(self.forces.element, element))
-        return at < self.forces.element.size and bool(self.forces.element[at] == element)
 
     def nodes(self, shells: Shells, index: int) -> Floats:
         """Nodes (n, 3) of an element [mm] in its order."""
@@ -73,8 +76,7 @@ class ElementLoads:
         column = np.searchsorted(self.number, rows.mode)
         count = np.zeros((ids.size, self.number.size), dtype=np.int64)
         np.add.at(count, (place, column), 1)
-        wanted = np.isin(self.number, self.forces.mode)
-        stray, wrong = ids[place] != rows.node, (count != 1) & wanted
+        stray, wrong = ids[place] != rows.node, (count != 1) & self.given
         if stray.any() or wrong.any():
             what = f"has forces at node {rows.node[stray.argmax()]}, which is none of its nodes"
             if not stray.any():
@@ -116,11 +118,23 @@ def read_element_loads(body: Body, *, strict: bool) -> tuple[ElementLoads, list[
     parts = [modes]
     for of_load in _load_files(body):
         refuse(DataError, _missing(of_load[0], f"{case.path.name}: body.unit_load"))
-        found, about = read_element_forces(of_load[0], of_load[1], files.force_convention, (), strict=strict)
-        parts.append(found)
+        of_file, about = read_element_forces(of_load[0], of_load[1], files.force_convention, (), strict=strict)
+        parts.append(of_file)
         warnings += about
     warnings += _left_out(body)
-    return ElementLoads(path.name, together(parts), body.coordinates, body.mesh), warnings
+    kinds, loads = np.array(body.modes.kind), case.body.unit_load
+    elastic = kinds != "rigid" if (kinds != "rigid").any() else np.ones(kinds.size, dtype=np.bool_)
+    given = np.array([bool(load.gauge_forces or load.element_forces) for load in loads], dtype=np.bool_)
+    balanced = given & ~np.array([load.elements_carry_load for load in loads], dtype=np.bool_)
+    found = ElementLoads(
+        file=path.name,
+        forces=together(parts),
+        coordinates=body.coordinates,
+        given=np.concatenate([np.ones(kinds.size, dtype=np.bool_), given]),
+        balanced=np.concatenate([elastic, balanced]),
+        mesh=body.mesh,
+    )
+    return found, warnings
 
 
 def imbalance(nodes: Floats, corners: int, force: Floats, largest: Floats) -> Floats:

@@ -30,6 +30,7 @@ class Grid:
     Attributes
     ----------
     pieces : of its length, one for each element that it crosses
+    angle_deg : from axis x of the element under its middle, or of the point, to the grid
     material : of the plate
     transverse_sensitivity : [-]
     xyz : (3,) its middle on the mid-surface of the plate, or the stress point, or the node of the line [mm]
@@ -45,6 +46,7 @@ class Grid:
     """
 
     pieces: tuple[Piece, ...]
+    angle_deg: float
     material: Material
     transverse_sensitivity: float
     xyz: Floats
@@ -58,11 +60,6 @@ class Grid:
     distance: float = 0.0
     part: int = 0
     doubts: tuple[Problem, ...] = ()
-
-    @property
-    def angle_deg(self) -> float:
-        """Angle from axis x of the element or the point to the grid, from -180 to 180 [deg]."""
-        return self.pieces[0].angle_deg if len(self.pieces) == 1 else np.nan
 
     def strain(self, turned_deg: float = 0.0) -> Floats:
         """What the grid shows per unit of each coordinate, (c,) [1e-6], turned by so much in its plane [deg]."""
@@ -121,6 +118,7 @@ def grid_at_point(gauge: Gauge, found: AtPoint, properties: Properties) -> Grid:
     angle = given_angle(gauge, found.axes)
     return Grid(
         pieces=(Piece(1.0, found.stress, angle),),
+        angle_deg=angle,
         material=material_of(gauge, properties, None),
         transverse_sensitivity=gauge.transverse_sensitivity,
         xyz=found.xyz,
@@ -143,6 +141,7 @@ def grid_at_toe(gauge: Gauge, toe: AtToe, properties: Properties) -> Grid:
     stress = np.stack([toe.stress, material.nu * toe.stress, np.zeros_like(toe.stress)])
     return Grid(
         pieces=(Piece(1.0, stress, 0.0),),
+        angle_deg=0.0,
         material=material,
         transverse_sensitivity=gauge.transverse_sensitivity,
         xyz=toe.xyz,

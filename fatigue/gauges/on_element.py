@@ -59,7 +59,8 @@ def grid_on_element(gauge: Gauge, plates: Plates) -> Grid:
     if gauge.xyz is not None:
         given = np.array(gauge.xyz)
         centre = given - ((given - centre) @ axes[2]) * axes[2]
-    direction = vector_at(axes, given_angle(gauge, axes))
+    angle = given_angle(gauge, axes)
+    direction = vector_at(axes, angle)
     normal = axes[2] if spot.face == TOP else -axes[2]
     under = [(spot.index, 1.0)]
     if gauge.grid_length > 0.0:
@@ -67,6 +68,7 @@ def grid_on_element(gauge: Gauge, plates: Plates) -> Grid:
     pieces = [piece_on(gauge, plates, index, normal, direction, share) for index, share in under]
     return Grid(
         pieces=tuple(pieces),
+        angle_deg=angle,
         material=material_of(gauge, plates.properties, int(shells.pid[spot.index])),
         transverse_sensitivity=gauge.transverse_sensitivity,
         xyz=centre,
@@ -114,7 +116,8 @@ def _doubts(gauge: Gauge, plates: Plates, index: int) -> list[Problem]:
     """Warning of an element whose forces are out of balance; worse is refused."""
     loads, element = plates.loads, int(plates.shells.element[index])
     force, corners = loads.of(plates.shells, index, gauge.where), corner_count(plates.shells, index)
-    residual = float(imbalance(loads.nodes(plates.shells, index), corners, force, plates.largest).max(initial=0.0))
+    residuals = imbalance(loads.nodes(plates.shells, index), corners, force, plates.largest)
+    residual = float(residuals[loads.balanced].max(initial=0.0))
     if residual <= WARNED:
         return []
     what = f"the forces of element {element} in {loads.file} are out of balance by {residual:.2g} of the largest"

@@ -61,26 +61,24 @@ def gauge_rows(groups: WeldGroups, gauges: Sequence[Gauge]) -> tuple[GaugeRows, 
     """
     body, kinds = groups.body, {gauge.kind for gauge in gauges}
     properties, warnings = _properties(groups)
-    plates, stress, models = None, None, dict[str, Model]()
-    if ELEMENT in kinds:
-        plates, of_plates = read_plates(body, properties)
-        warnings += of_plates
-    if TABLE in kinds:
-        stress, of_stress = point_stress(body)
-        warnings += of_stress
-    if TOE in kinds:
-        models = _models(groups, {gauge.weld for gauge in gauges if gauge.kind == TOE})
+    plates, of_plates = read_plates(body, properties) if ELEMENT in kinds else (None, [])
+    stress, of_stress = point_stress(body) if TABLE in kinds else (None, [])
+    models = _models(groups, {gauge.weld for gauge in gauges if gauge.kind == TOE})
+    warnings += of_plates + of_stress
+
+    def grid_of(gauge: Gauge) -> Grid:
+        if gauge.kind == TOE:
+            return grid_at_toe(gauge, at_toe(gauge, models), properties)
+        if gauge.kind == TABLE:
+            return grid_at_point(gauge, at_point(gauge, body.points, stress, body.case.path.name), properties)
+        assert plates is not None
+        return grid_on_element(gauge, plates)
+
     grids: list[Grid] = []
     problems: list[Problem] = []
     for gauge in gauges:
         try:
-            if gauge.kind == TOE:
-                grids.append(grid_at_toe(gauge, at_toe(gauge, models), properties))
-            elif gauge.kind == TABLE:
-                found = at_point(gauge, body.points, stress, body.case.path.name)
-                grids.append(grid_at_point(gauge, found, properties))
-            elif plates is not None:
-                grids.append(grid_on_element(gauge, plates))
+            grids.append(grid_of(gauge))
         except DataError as error:
             problems += error.problems
     refuse(DataError, problems)

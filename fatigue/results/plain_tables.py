@@ -1,5 +1,6 @@
 """Rows on disk: Parquet with unit and meaning of every column, and CSV, in a folder that a command fills."""
 
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -60,6 +61,7 @@ def write_csv(folder: Path, name: str, columns: Sequence[Column], rows: Rows) ->
     for i, field in enumerate(table.schema):
         if field.type == pa.string():
             table = table.set_column(i, field, pc.replace_substring_regex(table[i], _FORMULA, r"'\1"))
+    table = table.rename_columns([re.sub(_FORMULA, r"'\1", name) for name in table.column_names])
     with refused_writing(path):
         pa_csv.write_csv(table, path, pa_csv.WriteOptions(quoting_style="needed"))
     return path

@@ -6,6 +6,7 @@ import pytest
 from fatigue.case import load_case
 from fatigue.errors import DataError
 from fatigue.gauges.forces import imbalance
+from fatigue.gauges.histories.story import histories
 from fatigue.results.origin import is_assessed_case
 from tests.gauge_case import SHEAR, gauge_case
 from tests.gauges.test_rows import rows_of, table
@@ -43,6 +44,21 @@ def test_a_unit_load_is_one_more_coordinate_of_a_gauge(tmp_path, moves):
     assert rows.strain[1, 2] != 0.0  # of the stand-in, from its nodal forces
 
 
+def test_constant_loads_shift_readings_and_static_cases_are_events(tmp_path):
+    """2 kN in every event move the mean by twice the row; a static load case of 0 and 3 kN is half a cycle of three."""
+    case_file, gauges = with_load(tmp_path, gauge_forces=True, moves=False)
+    static = '[[mission.event]]\nname = "gust"\nper_1000_km = 1.0\n[[mission.event.unit_load]]\n'
+    static += 'name = "wind"\nunit = "kN"\nvalues = [0.0, 3.0]\n'
+    case_file.write_text(case_file.read_text("utf-8") + static, encoding="utf-8")
+    found = histories(case_file, gauges)
+    of = {(row.gauge, row.event): row for row in found.events}
+    shear = 0.5e6 * SHEAR
+    sine, gust = of["g", "sine"], of["g", "gust"]
+    assert sine.mean_ue == pytest.approx(2.0 * shear, rel=1e-6)
+    assert (gust.min_ue, gust.max_ue) == pytest.approx((0.0, 3.0 * shear), abs=1e-6)
+    assert (gust.cycles_per_pass, gust.largest_range_ue) == pytest.approx((0.5, 3.0 * shear))
+
+
 def test_a_load_without_element_forces_is_told_where_it_is_constant(tmp_path):
     """Only means are wrong: a warning, and nothing in the row."""
     rows, warnings = rows_of(*with_load(tmp_path, gauge_forces=False, moves=False))
@@ -67,6 +83,16 @@ def test_a_little_out_of_balance_is_a_warning(tmp_path):
     assert problem.code == "imbalance"
     assert "the forces of element 101 in gauge_forces.csv are out of balance by 0.00" in str(problem)
     assert len(rows) == 2
+
+
+def test_rigid_modes_need_no_balance(tmp_path):
+    """Their forces are round-off; a rigid mode that carries some is read as it is."""
+    case = gauge_case(TEXT)
+    case.case.modes.loc[case.case.modes["mode"] == 2, "kind"] = "rigid"
+    noise = (case.forces["mode"] == 2).to_numpy()
+    case.forces.loc[noise, ["fx_N", "my_Nmm"]] = np.random.default_rng(1).standard_normal((noise.sum(), 2))
+    _, warnings = rows_of(*case.write(tmp_path))
+    assert warnings == []
 
 
 def test_balance_is_measured_in_the_plane_of_the_element_only():

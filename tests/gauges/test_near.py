@@ -19,7 +19,16 @@ def grid(stress, angle, *, stand_in=False):
     """A grid at an angle under a stress (3, c)."""
     zero = np.zeros(3)
     return Grid(
-        (Piece(1.0, np.asarray(stress, float), angle),), Material(E, NU), 0.0, zero, zero, zero, 2.0, "top", stand_in
+        (Piece(1.0, np.asarray(stress, float), angle),),
+        angle,
+        Material(E, NU),
+        0.0,
+        zero,
+        zero,
+        zero,
+        2.0,
+        "top",
+        stand_in,
     )
 
 

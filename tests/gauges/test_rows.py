@@ -311,6 +311,9 @@ def test_bad_rows_of_forces_are_told(tmp_path):
     gone = gauge_case(text)
     gone.forces = gone.forces[~((gone.forces.element == 101) & (gone.forces.node == 12) & (gone.forces["mode"] == 2))]
     assert "element 101 of gauge_forces.csv has no row at node 12 for mode 2" in refused(gone, tmp_path / "gone")
+    lost = gauge_case(text)
+    lost.forces = lost.forces[lost.forces["mode"] != 2]
+    assert "element 101 of gauge_forces.csv has no row at node 1 for mode 2" in refused(lost, tmp_path / "lost")
     strange = gauge_case(text)
     of_one = (strange.forces.element == 101) & (strange.forces.node == 12)
     strange.forces.loc[of_one, "node"] = 13

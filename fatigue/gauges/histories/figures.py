@@ -17,6 +17,7 @@ MOST_HISTORIES, MOST_SPECTRA = 6, 12
 EXCERPT_S = 4.0
 PER_1E6_KM = 1e6
 ARROW = 0.025  # of the extent of the body: length of the grids that are drawn
+TOGETHER = 2.0  # such lengths: gauges this near to each other have one label
 SYMBOL = {"element": "circle", "table": "diamond", "toe": "x"}
 NAME = {"element": "on an element", "table": "at a stress point", "toe": "stand-in at a toe"}
 
@@ -40,17 +41,29 @@ def places(rows: Sequence[GaugeRow], lines: Sequence[Floats], body: BodyOutline 
             {
                 "type": "scatter3d",
                 **_xyz(at[own]),
-                "mode": "markers+text" if len(rows) <= MOST_SPECTRA else "markers",
+                "mode": "markers",
                 "name": NAME[kind],
                 "marker": {"size": 5, "symbol": SYMBOL[kind], "color": SERIES[i]},
-                "text": [in_figure(rows[n].gauge, 24) for n in own],
-                "textposition": "top center",
-                "textfont": {"size": 11},
                 "hovertext": [_hover(rows[n]) for n in own],
                 "hoverinfo": "text",
             }
         )
-    return figure(data, height=520, margin={"l": 0, "r": 0, "t": 30, "b": 0}, scene=space_around(xyz))
+    named = _labels(rows, at, TOGETHER * reach)
+    names = {"type": "scatter3d", **_xyz(at[list(named)]), "mode": "text", "text": list(named.values())}
+    data.append(names | {"textposition": "top center", "textfont": {"size": 11}, "showlegend": False} | _SILENT)
+    return figure(data, height=440, margin={"l": 0, "r": 0, "t": 30, "b": 0}, scene=space_around(xyz))
+
+
+def _labels(rows: Sequence[GaugeRow], at: Floats, apart: float) -> dict[int, str]:
+    """Labels by the number of a gauge: of several in one place the first, and how many others."""
+    found: dict[int, int] = {}
+    for n in range(len(rows)):
+        near = next((first for first in found if np.linalg.norm(at[n] - at[first]) < apart), None)
+        if near is None:
+            found[n] = 0
+        else:
+            found[near] += 1
+    return {n: in_figure(rows[n].gauge, 24) + (f" +{more}" if more else "") for n, more in found.items()}
 
 
 def excerpts(rows: Sequence[GaugeRow], readings: Sequence[Reading]) -> list[tuple[str, go.Figure]]:

@@ -119,7 +119,7 @@ def gauge_table(body: Body, rows: GaugeRows, covariance: Floats) -> list[GaugeRo
                 transverse_sensitivity=gauge.transverse_sensitivity,
                 E_MPa=grid.material.E,
                 nu=grid.material.nu,
-                nearest_weld=near[i].weld,
+                nearest_weld=gauge.weld or near[i].weld,  # a toe may lie on two lines
                 distance_to_weld_mm=near[i].distance,
                 rms_ue=float(strain[i]),
                 rms_MPa=float(stress[i]),

@@ -190,3 +190,27 @@ def test_mistakes_end_with_their_exit_codes(written, tmp_path):
     assert fatigue("gauges", "histories", tmp_path / "no.toml", "--gauges", gauges, "-o", tmp_path).returncode == 3
     assert fatigue("gauges", "histories", case_file, "-o", tmp_path / "o").returncode == 2
     assert not (tmp_path / "o").exists()
+
+
+def test_names_of_gauges_are_texts_and_no_formulas(tmp_path):
+    """What a spreadsheet would take for a formula is marked in CSV, in cells and headings, and kept elsewhere."""
+    case = gauge_case(table("=1+1,element,101,,,,,,,0,,,,top,,,,,,,,"))
+    case_file, gauges = case.write(tmp_path / "case")
+    histories(case_file, gauges, into=tmp_path / "out", csv=True)
+    assert read(tmp_path / "out", "gauges").gauge.tolist() == ["=1+1"]
+    assert (tmp_path / "out" / "histories.csv").read_text("utf-8").startswith('"event","time_s","\'=1+1_ue"')
+    assert "'=1+1" in (tmp_path / "out" / "gauges.csv").read_text("utf-8")
+
+
+def test_a_case_without_mesh_has_stand_ins_alone(tmp_path):
+    """No outline, no neighbours; the page draws the weld lines."""
+    case = gauge_case(table("t,toe,,,,,,,,,,,,top,,A,2,,,,70000,0.3")).case
+    case_file = case.write(tmp_path / "case")
+    gauges = tmp_path / "gauges.csv"
+    gauges.write_text(table("t,toe,,,,,,,,,,,,top,,A,2,,,,70000,0.3"), encoding="utf-8")
+    found = histories(case_file, gauges, into=tmp_path / "out")
+    (row,) = found.gauges
+    assert (row.stand_in, row.neighbours, row.element, row.nearest_weld) == (True, 0, None, "A")
+    first = next(one for one in found.events if one.event == "sine")
+    assert first.rms_MPa == pytest.approx(1.5 * 30.0 / np.sqrt(2.0))  # membrane 1 and bending 0.5 per unit
+    assert first.rms_ue == pytest.approx(1e6 * (1 - 0.3**2) / 70000.0 * first.rms_MPa)
