@@ -31,6 +31,8 @@ def gauges() -> None:
     \b
     Examples:
       fatigue gauges histories case.toml --gauges gauges.csv -o strains
+      fatigue gauges correlate case.toml --gauges gauges.csv --channels channels.csv \\
+        --records ride.parquet --km 5.2 --event "worn 350" -o beside
     """
 
 

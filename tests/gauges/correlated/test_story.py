@@ -453,6 +453,7 @@ def test_sound_wheels_beside_worn_ones_on_the_shipped_car_body(tmp_path):
         asked=Asked(km=2.82),
     )
     assert verdicts(found) == ["good", "good", "poor"]
+    assert [one.said_flags for one in found.comparisons] == ["", "", ""]  # a clean record has no spike
     ratios = [one.numbers.equivalent_range_ratio for one in found.comparisons]
     assert ratios == pytest.approx([0.99, 1.00, 0.24], abs=0.005)
     hunting = [one.numbers.band_ratios[8.0, 12.0] for one in found.comparisons]
