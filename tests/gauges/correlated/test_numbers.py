@@ -39,6 +39,7 @@ def sides():
 def test_the_numbers_of_the_oracle(sides):
     """measured_oracles.json, correlate: rms, pseudo-damage, ratios to 1e-5; the closed form is 1.08^3.6."""
     found = compared(*sides, 200.0, BAND, K)
+    assert list(found.range_ratios) == [1, 10, 100]
     assert found.rms_measured == pytest.approx(36.834578, rel=1e-6)
     assert found.rms_simulated == pytest.approx(34.0954542, rel=1e-6)
     assert found.rms_ratio == pytest.approx(1.08033692, rel=1e-6)
