@@ -181,8 +181,8 @@ def _by_weld(made: pd.DataFrame) -> dict[str, list[Cause]]:
 
 
 def _cause(made: Sequence[Cause], log: float, names: Mapping[int, str], *, moved: bool) -> tuple[Any, ...]:
-    """Event that moves a life most (empty: the limit), what it adds, by which modes, and all of it in words."""
-    largest = largest_cause(made)
+    """Event that moves a life most the way it went (empty: the limit), what it adds, by which modes, all in words."""
+    largest = largest_cause(made, log)
     if largest is None:
         return None, np.nan, "", ""
     modes, said = modes_of(made, largest, names), why(made, log, names)

@@ -98,7 +98,8 @@ def _rules(a: Finished, b: Finished) -> _Found:
             continue
         one, other = ours.get(key, NOT_ON_RECORD), theirs.get(key, NOT_ON_RECORD)
         if one != other and NOT_ON_RECORD not in (one, other):
-            yield _named(rule, event), _text(one), _text(other), _ASIDE if rule in _BESIDE else "per_pass"
+            sits_in = _ASIDE if rule in _BESIDE else "sequence" if rule == "events" else "per_pass"
+            yield _named(rule, event), _text(one), _text(other), sits_in
     upsampled_a, upsampled_b = (one.record["rules"].get("upsampled", {}) for one in (a, b))
     for event in (event for event in upsampled_a if event in upsampled_b):
         if upsampled_a[event] != upsampled_b[event]:

@@ -126,6 +126,12 @@ def notes(pair: Pair) -> Iterator[str]:
         yield f"{bounds} of {len(points)} ratios are one-sided or unknown (basis): a bound stands for a count."
     if endless := int((points["log_life_ratio"].abs() == math.inf).sum()):
         yield f"{endless} points are damaged in one of the results only: their ratio is infinite and has no causes."
+    only_a, only_b = (sorted(set(one) - set(other)) for one, other in ((a.passes, b.passes), (b.passes, a.passes)))
+    if only_a and only_b:
+        yield (
+            f"Events are matched by name: {few(only_a)} of A and {few(only_b)} of {b.letter} have no partner. One that "
+            "was renamed vanishes and comes in again."
+        )
     yield from _by_a_check(pair)
     yield from _about_causes(pair)
     if pair.welds["worst_moved"].any():

@@ -59,9 +59,13 @@ def why(causes: Sequence[Cause], log_ratio: float, names: Mapping[int, str]) -> 
     return listed(with_it) + (f"; against it {listed(against)}" if against else "")
 
 
-def largest_cause(causes: Sequence[Cause]) -> Cause | None:
-    """What moves the life most, with the whole of it: a limit, an event, a sequence; None where nothing does."""
-    return next((one for one in _whole(causes) if one.log_life_ratio != 0.0), None)
+def largest_cause(causes: Sequence[Cause], log_ratio: float) -> Cause | None:
+    """What moves the life most the way it went: a limit, an event, a sequence; None where nothing does.
+
+    An event that has two others in its place gives the more life, and yet a shorter life is not owed to it.
+    """
+    moving = [one for one in _whole(causes) if one.log_life_ratio != 0.0]
+    return next((one for one in moving if one.log_life_ratio * log_ratio > 0.0), next(iter(moving), None))
 
 
 def modes_of(causes: Sequence[Cause], of: Cause, names: Mapping[int, str]) -> list[str]:

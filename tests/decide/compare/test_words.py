@@ -35,7 +35,9 @@ def test_the_largest_causes_come_first_and_those_against_them_behind():
         "first does 4 times the damage per pass and occurs 2 times as often and second occurs 2 times as often; "
         "against it back does 4 times the damage per pass"
     )
-    assert largest_cause(causes).event == "first"
+    assert largest_cause(causes, -2.4).event == "first"
+    assert largest_cause(causes, 0.1).event == "back"
+    assert largest_cause(causes[:2], 0.1).event == "small"
 
 
 def test_events_that_come_and_go():
@@ -53,7 +55,7 @@ def test_a_life_that_stays_says_nothing_unless_causes_cancel():
     """A few percent are the same; two causes that make up for each other are told."""
     assert why([event("e", 0.04), *parts("e", 0.0, 0.04)], 0.04, NAMES) == ""
     assert why([], 0.0, NAMES) == ""
-    assert largest_cause([event("e", 0.0)]) is None
+    assert largest_cause([event("e", 0.0)], 0.0) is None
     said = why([event("e", -1.0), *parts("e", 0.0, -1.0), event("f", 1.0, 1e-8, 0.0)], 0.0, NAMES)
     assert said == "e does 4 times the damage per pass and f is gone, which others make up for"
 

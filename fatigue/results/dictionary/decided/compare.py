@@ -72,7 +72,7 @@ WELDS = (
     Column("fulfilled", "flag", "-", "A meets its target"),
     Column("other_fulfilled", "flag", "-", "the other meets its target"),
     Column("flip", "text", "-", "lost: meets its target in A and misses it there; gained: the reverse; empty: neither"),
-    Column("cause_event", "text", "-", "event or sequence that moves the life most; empty where it is the limit"),
+    Column("cause_event", "text", "-", "event or sequence that moves the life most the way it went; empty: the limit"),
     Column("cause_log_life_ratio", "float", "-", "what it adds to the log ratio"),
     Column("cause_by", "text", "-", "modes and unit loads that make most of it; empty without a diagnosis of both"),
     Column("why", "text", "-", "the causes in words; empty where nothing changes a life by more than 5 %"),
