@@ -15,7 +15,15 @@ from numpy.typing import NDArray
 from fatigue.decide.whatif.change import names_of
 from fatigue.errors import DataError, Problem
 from fatigue.life.bounds.histogram import Classes
-from fatigue.results import ASSESSED, finished_result, read_codes, read_table, read_welds, refuse_mixed
+from fatigue.results import (
+    ASSESSED,
+    finished_result,
+    number_groups,
+    read_codes,
+    read_table,
+    read_welds,
+    refuse_mixed,
+)
 from fatigue.results.tables import table_path
 
 Floats = NDArray[np.float64]
@@ -150,25 +158,18 @@ def stored_ranges(stored: Stored, kind: Kind) -> StoredRanges:
     if not (stored.folder / "histogram.parquet").exists():
         return StoredRanges(Classes(*(np.zeros(0, np.intp),) * 2, *(np.zeros(0),) * 3), np.zeros(0, np.intp))
     refuse_mixed(stored.folder, stored.record, ("histogram",), ("histogram",))
-    kinds, words = read_codes(stored.folder, "histogram", "kind")
-    rows = np.flatnonzero(np.array([*(word == kind for word in words), False])[kinds])
-    of = {}
-    for name, known in (("weld", stored.welds), ("event", stored.names), ("surface", ("top", "bottom"))):
-        codes, words = read_codes(stored.folder, "histogram", name)
-        of[name] = np.array([*(known.index(word) if word in known else -1 for word in words), -1])[codes[rows]]
-    columns = ["part", "order", "bin", "count_per_pass", "power_sum_per_pass"]
-    table = read_table(stored.folder, "histogram", columns)
-    numbers = {name: table[name].to_numpy()[rows] for name in columns}
-    point = _points(stored, of, numbers)
-    event = of["event"]
+    numbers = ("part", "order", "bin", "count_per_pass", "power_sum_per_pass")
+    texts = {"kind": (kind,), "weld": stored.welds, "event": stored.names, "surface": ("top", "bottom")}
+    groups = number_groups(stored.folder, "histogram", numbers, texts)
+    parts = [{name: of[name][of["kind"] == 0] for name in (*numbers, *texts)} for of in groups]
+    rows = {name: np.concatenate([part[name] for part in parts]) for name in (*numbers, *texts)}
+    point, event = _points(stored, rows), rows["event"].astype(np.intp)
     largest = stored.largest(kind)[point, event]
-    classes = Classes(
-        point, numbers["bin"].astype(np.intp), numbers["count_per_pass"], numbers["power_sum_per_pass"], largest
-    )
-    return StoredRanges(classes, event)
+    counts = rows["count_per_pass"], rows["power_sum_per_pass"]
+    return StoredRanges(Classes(point, rows["bin"].astype(np.intp), *counts, largest), event)
 
 
-def _points(stored: Stored, of: Mapping[str, NDArray[Any]], numbers: Mapping[str, NDArray[Any]]) -> NDArray[np.intp]:
+def _points(stored: Stored, rows: Mapping[str, NDArray[Any]]) -> NDArray[np.intp]:
     """Row in the table of nodes of every row of the histogram.
 
     Raises
@@ -178,11 +179,11 @@ def _points(stored: Stored, of: Mapping[str, NDArray[Any]], numbers: Mapping[str
     keys = stored.keys()
     face = (keys["surface"] == "bottom").to_numpy()
     every = _code(stored.weld, keys["part"].to_numpy(), keys["order"].to_numpy(), face)
-    wanted = _code(of["weld"], numbers["part"], numbers["order"], of["surface"])
+    wanted = _code(rows["weld"], rows["part"], rows["order"], rows["surface"])
     ascending = np.argsort(every, kind="stable")
     at = np.searchsorted(every[ascending], wanted)
     row = ascending[np.minimum(at, len(every) - 1)]
-    if (every[row] != wanted).any() or (of["event"] < 0).any():
+    if (every[row] != wanted).any() or (rows["event"] < 0).any():
         what, remedy = "has points or events that nodes.parquet has not", "Run the assessment again"
         raise DataError(Problem("other_points", str(table_path(stored.folder, "histogram")), what, remedy))
     return row

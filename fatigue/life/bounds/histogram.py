@@ -27,6 +27,7 @@ from fatigue.life.rule import cycle_damage, segment
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
+AT_ONCE = 500_000  # classes, whose numbers are 100 MB
 ROUNDING = 1e-9  # relative, of sums of cycles and of their mean beside the edges of the class
 
 
@@ -52,7 +53,7 @@ class Classes:
         """Number of classes."""
         return len(self.bin)
 
-    def some(self, rows: Indices | NDArray[np.bool_]) -> Self:
+    def some(self, rows: Indices | NDArray[np.bool_] | slice) -> Self:
         """Some of them."""
         return type(self)(self.of[rows], self.bin[rows], self.count[rows], self.power_sum[rows], self.largest[rows])
 
@@ -108,10 +109,15 @@ def damage_of_classes(
     >>> np.allclose([low, value, high], cycle_damage(x, law).sum(), rtol=1e-12)
     True
     """
-    found = class_damage(classes, slope, law, factor)
     n = (int(classes.of.max(initial=-1)) + 1) if points is None else points
-    with np.errstate(invalid="ignore"):
-        return Enclosed(*(np.bincount(classes.of, part, n).astype(np.float64) for part in found))
+    f = np.broadcast_to(np.asarray(factor, dtype=np.float64), len(classes))
+    total = Enclosed(np.zeros(n), np.zeros(n), np.zeros(n))
+    for first in range(0, len(classes), AT_ONCE):
+        rows = slice(first, first + AT_ONCE)
+        some = classes.some(rows)
+        for part, found in zip(total, class_damage(some, slope, law, f[rows]), strict=True):
+            np.add(part, np.bincount(some.of, found, n), out=part)
+    return total
 
 
 def class_damage(classes: Classes, slope: float, law: DamageLaw, factor: Floats | float = 1.0) -> Enclosed:

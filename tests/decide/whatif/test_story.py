@@ -210,6 +210,20 @@ def test_counted_points_on_a_curve_with_a_knee_have_no_load_factor(tmp_path):
     assert found["load_factor"][counted].isna().all()
 
 
+def test_a_large_result_has_the_load_factor_of_the_worst_point_of_each_weld(tmp_path, monkeypatch):
+    """Beyond so many classes; damages, chunk by chunk, are those of a small one."""
+    result = run(base_case("haibach"), tmp_path)
+    small = whatif(result, ["load=1.3"])
+    monkeypatch.setattr("fatigue.decide.whatif.margin.MOST_CLASSES", 10)
+    monkeypatch.setattr("fatigue.life.bounds.histogram.AT_ONCE", 100)
+    large = whatif(result, ["load=1.3"])
+    known = large.points["load_factor"].notna()
+    assert large.points[known]["weld"].tolist() == ["A", "B"]
+    np.testing.assert_allclose(large.points["load_factor"][known], small.points["load_factor"][known], rtol=1e-9)
+    for name in ("damage_per_km_low", "damage_per_km", "damage_per_km_high"):
+        np.testing.assert_allclose(large.points[name], small.points[name], rtol=1e-12)
+
+
 def screened(tmp_path, target_km: float):
     """A result whose points were settled by bounds, but for the worst of each weld."""
     case = base_case("straight")
