@@ -20,7 +20,7 @@ from fatigue.decide.whatif.forward import Forward, forward
 from fatigue.decide.whatif.stored import Kind, Stored, StoredRanges, stored_ranges
 from fatigue.errors import DataError, Problem
 from fatigue.life.curves import DamageLaw
-from fatigue.results import case_of
+from fatigue.results import case_of, read_table
 
 Floats = NDArray[np.float64]
 Rows = NDArray[np.intp]
@@ -49,6 +49,16 @@ class Base:
     def keys(self) -> pd.DataFrame:
         """Key of every point."""
         return self.stored.keys()
+
+    @cached_property
+    def at_end(self) -> NDArray[np.bool_]:
+        """Points (n,) near a weld end."""
+        found: NDArray[np.bool_] = read_table(self.stored.folder, "nodes", ["at_end"])["at_end"].to_numpy()
+        return found
+
+    def is_treated_over_thickness(self, weld: int, row: int) -> bool:
+        """Whether a point lies at a weld end that is treated over the thickness of the plate."""
+        return bool(self.at_end[row]) and bool(pd.isna(self.stored.of_welds["end_length_mm"].iloc[weld]))
 
     @cached_property
     def limit(self) -> Floats:

@@ -18,6 +18,7 @@ Floats = NDArray[np.float64]
 
 JUMP = "the target is passed in a jump, at a cut-off or where a mean-stress rule begins: this side of it meets it"
 RISES = "not monotonic: a thicker plate may do worse; from here on all thicker ones that were looked at meet the target"
+AT_END = "at a weld end, treated over the plate thickness as it was: treated over the new one the damage is another"
 ENOUGH = 1e-9  # relative, of passes that a loop needs
 
 
@@ -89,6 +90,7 @@ def _of_strength(base: Base, asked: Question, found: Strengths, weld: int) -> An
     notes = [JUMP] if found.jumps[weld] and state == "solved" else []
     if asked.of == "thickness":
         notes += [RISES] if found.not_monotonic[weld] else []
+        notes += [AT_END] if state == "solved" and base.is_treated_over_thickness(weld, row) else []
         if state == "any":
             notes.append(f"met from {SCAN[0]:g} to {SCAN[-1]:g} times the thickness: thinner was not looked at")
         elif state == "none":

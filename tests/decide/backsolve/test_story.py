@@ -230,6 +230,21 @@ def test_thickness(tmp_path, rule):
     assert utilisations(made(thicker(short(**more), whole), tmp_path / "body")).max() == pytest.approx(1.0, abs=1e-6)
 
 
+@pytest.mark.parametrize("length", [None, END])
+def test_ends_that_are_treated_over_the_thickness(tmp_path, length):
+    """The note is there where a rerun would treat the end over another length."""
+    case = short()
+    case.welds["end_length_mm"] = length
+    forces = case.nodal_forces
+    ends = forces["node"].isin([100, 106, 200, 206])
+    forces.loc[ends, ["fy_N", "mx_Nmm"]] *= 1.5  # the worst points are ends
+    base = made(case, tmp_path)
+    target = float(2e6 / utilisations(base).max())
+    rows = rows_of(backsolve(base, "thickness", target=target))
+    assert rows["A"].order in (1, 7)
+    assert ("treated over the plate thickness" in rows["A"].note) == (length is None)
+
+
 def test_thickness_of_a_mixed_cycle(tmp_path):
     """Oracle [B3 mixed]: membrane to bending 2 to 1, utilisation 3: 5.312856552421842 of 4 mm, on the top face."""
     case = sine_only()
