@@ -234,4 +234,4 @@ def _columns(name: str, cells: list[str]) -> str:
 
 
 def _km(life: float | None) -> str:
-    return "> 1e12" if life is None or life > LONGEST_LIFE_KM else f"{life:.4g}"
+    return "> 1e12" if life is None or life > LONGEST_LIFE_KM else f"{life:.3g}"

@@ -322,4 +322,4 @@ def _percent(share: float) -> str:
 
 
 def _km(value: float) -> str:
-    return "> 1e12 km" if value > LONGEST_LIFE_KM else f"{value:.4g} km"
+    return "> 1e12 km" if value > LONGEST_LIFE_KM else f"{value:.3g} km"

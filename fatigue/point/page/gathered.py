@@ -14,9 +14,11 @@ from fatigue.life.rule import cycle_damage
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.solve.model import Model
 from fatigue.point.found import FACES, Station
+from fatigue.point.page.beside import checks_at
 from fatigue.point.page.counted import CYCLES, count_station, write_band, write_cycles
 from fatigue.point.page.shared_out import AS_USUAL, Diagnosed, diagnosed, share_out, tables_of
 from fatigue.point.reopened import Reopened, solved_station
+from fatigue.report.checks import ShownChecks
 from fatigue.report.inputs import FoundInputs
 from fatigue.report.merged_cycles import MOST_ROWS, ShownPoint, merged_cycles
 from fatigue.report.of_record import Record, weights_of
@@ -25,7 +27,7 @@ from fatigue.report.sections.point.worst_cycles import most_damaging
 from fatigue.report.sections.why import Why
 from fatigue.report.variants import assumptions_of, law_of
 from fatigue.results import read_rows, read_table, read_welds, row_count, rows_of_welds
-from fatigue.results.beside.life_band import Bands, read_bands
+from fatigue.results.beside.life_band import BandOfPoint, Bands, read_bands
 from fatigue.spectrum.moments import point_moments
 from fatigue.why.evidence import Evidence
 from fatigue.why.points import Points, points_of
@@ -55,6 +57,7 @@ class Gathered:
     event : whose record is shown: by default the one that damages most, of an undamaged point that with the largest
         range
     evidence, why : whose damage it is, in numbers and as the tables of a diagnosis
+    beside : checks beside the normal stress that the result made at its place
     diagnosis : what the diagnosis in the folder has of it; None where there is none
     detail : what the records say of it
     spectral : moments m0, m1, m2, m4 of its stress in that event [MPa^2 Hz^n] and the duration of a pass [s]; None
@@ -77,6 +80,7 @@ class Gathered:
     event: str
     evidence: Evidence
     why: Why
+    beside: ShownChecks
     diagnosis: Diagnosed | None
     detail: Detail
     spectral: tuple[Floats, float] | None
@@ -96,6 +100,11 @@ class Gathered:
         """Bands that hold that of its life: those of the result, with the survival of its line, else that of now."""
         has_it = self.bands_stored is not None and self.bands_stored.of(*self.key) is not None
         return self.bands_stored if has_it and not self.is_screened else self.bands_counted
+
+    @property
+    def band(self) -> BandOfPoint | None:
+        """Band of its life."""
+        return None if self.bands is None else self.bands.of(*self.key)
 
     @property
     def key(self) -> tuple[str, int, int, str]:
@@ -166,6 +175,7 @@ def gather(
         event=event,
         evidence=evidence,
         why=tables_of(evidence, scratch),
+        beside=checks_at(folder, record, station),
         diagnosis=known,
         detail=_detail(found, record, model, at, points, event, cycles, stored),
         spectral=_spectral(points, loads[[one.event for one in plan.passes].index(event)]),

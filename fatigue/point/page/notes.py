@@ -1,4 +1,4 @@
-"""What is to be said of a point before its numbers: what it is not, and what stands in its row in place of a number."""
+"""What is to be said of a point before its numbers: what it is not, what stands in place of a number, its band."""
 
 from collections.abc import Iterator
 
@@ -8,7 +8,8 @@ import pandas as pd
 from fatigue.point.page.checked import is_decided_by_shear
 from fatigue.point.page.gathered import Gathered
 from fatigue.report.merged_cycles import MOST_ROWS
-from fatigue.report.wording import life_km, number, share, short, whole
+from fatigue.report.sections.beside.life_band import band_facts
+from fatigue.report.wording import LONGEST, life_km, number, share, short, whole
 
 
 def notes_of(found: Gathered) -> tuple[str, ...]:
@@ -24,7 +25,7 @@ def _notes(found: Gathered) -> Iterator[str]:
             "an exit code or the life of its weld"
         )
     if found.is_screened:
-        yield _screened(found)
+        yield from _screened(found)
     if is_decided_by_shear(found):
         method = found.record["rules"]["multiaxial"]["method"]
         of_normal = float(found.counted["utilisation"])
@@ -61,15 +62,15 @@ def _too_short(found: Gathered) -> Iterator[str]:
         )
 
 
-def _screened(found: Gathered) -> str:
+def _screened(found: Gathered) -> Iterator[str]:
     """What the bound of the result was, and what counting gives."""
     bound, damage = float(found.stored["damage_per_km"]), float(found.counted["damage_per_km"])
-    times = "" if damage == 0.0 else f", {number(bound / damage)} times as much"
-    return (
+    yield (
         f"The result did not count this point: a bound ({found.stored['screened']}) settled it, with a damage of at "
-        f"most {number(bound)} per km and a life of at least {life_km(found.stored['life_km'])}. Counted now: "
-        f"{number(damage)} per km{', the bound is ' + times[2:] if times else ''}"
+        f"most {number(bound)} per km and a life of at least {life_km(found.stored['life_km'])}"
     )
+    times = f", so that the bound is {number(bound / damage)} times as much" if damage > 0.0 else ""
+    yield f"Counted now, its damage is {number(damage)} per km{times}"
 
 
 def _beside_the_worst(found: Gathered, weld: pd.Series) -> Iterator[str]:
@@ -101,3 +102,8 @@ def _shown(found: Gathered) -> Iterator[str]:
         f"Shown is the record of {short(found.event)}, {share(of_event)} of the damage; {short(str(governing))} "
         f"governs{across}"
     )
+
+
+def facts_of_band(found: Gathered) -> list[tuple[str, str]]:
+    """Facts about the band of a life that is not beyond all numbers."""
+    return [] if found.row["life_km"] > LONGEST else band_facts(found.bands, found.row)

@@ -4,16 +4,18 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import pandas as pd
 
 from fatigue.point.page.checked import checks_of
 from fatigue.point.page.gathered import Gathered, listed
-from fatigue.point.page.notes import notes_of
+from fatigue.point.page.notes import facts_of_band, notes_of
 from fatigue.point.page.tables import cycle_table, domains_table, leading_events, number_table, verdict_cell
 from fatigue.report import figures, wording
 from fatigue.report.of_record import mode_names, target_of, weights_of
 from fatigue.report.page_text import page_text
 from fatigue.report.sections import weld_tables
-from fatigue.report.sections.beside.life_band import band_facts, band_sentence
+from fatigue.report.sections.beside.checks import weld_checks
+from fatigue.report.sections.beside.life_band import band_sentence
 from fatigue.report.sections.beside.shear import shear_facts
 from fatigue.report.sections.curves import curve_words, figure_mark
 from fatigue.report.sections.embed import Figures, Shown
@@ -70,9 +72,9 @@ def facts_of(found: Gathered) -> dict[str, Any]:
         "verdict": verdict_cell(found),
         "target_km": target_of(record),
         "notes": notes_of(found),
-        "facts": [*weld_tables.facts(row, weld, curve), *band_facts(found.bands, row), *shear_facts(row)],
-        "band": band_sentence(None if found.bands is None else found.bands.of(*found.key)),
-        "event": found.event,
+        "facts": [*weld_tables.facts(row, weld, curve), *facts_of_band(found), *shear_facts(row)],
+        "band": "" if row["life_km"] > wording.LONGEST else band_sentence(found.band),
+        "governing": wording.NOT_AVAILABLE if pd.isna(row["governing_event"]) else str(row["governing_event"]),
         "undamaged": row["damage_per_km"] == 0.0,
     }
 
@@ -103,6 +105,7 @@ def _tables(found: Gathered) -> dict[str, Any]:
         "domains": domains_table(found, events),
         "reasons": [reason for reason in why.reasons() if reason[0] in events],
         "variants": weld_tables.variant_table("variants", of_cycles, life, km_per_year),
+        "beside": weld_checks("checks-beside", found.beside, found.station.weld),
         "numbers": number_table(found),
         "assumptions": assumptions(record),
         "checks": checks_of(found),
@@ -123,7 +126,7 @@ def drawn(found: Gathered, figs: Figures) -> Drawn:
         ranges=cycle_figures(record, name, found.cycles, used, figs),
         damage=why_figures(record, found.why, found.event, figs)
         if damaged
-        else variance_figure(record, found.detail, found.event, figs),
+        else variance_figure(record, found.detail, found.event, "this point", figs),
         domains=[*_domains(found, figs), *shear_figure(record, found.detail, found.event, figs)],
         spectrum=spectrum_figure(record, found.detail, found.event, figs),
     )
@@ -133,8 +136,18 @@ def _along(found: Gathered, figs: Figures) -> Shown:
     """Life, load factor and stress along the weld with the point marked."""
     at = (found.station.part, found.station.order, found.surface)
     event, stress = wording.in_figure(found.event), found.detail.deviation or None
-    line = figures.along_weld(found.line, target_of(found.record), stress, event, marked=at)
+    line = figures.along_weld(_line(found), target_of(found.record), stress, event, marked=at)
     return figs.add("along", line, f"{wording.short(found.station.weld)}: where the point lies on its weld", wide=True)
+
+
+def _line(found: Gathered) -> pd.DataFrame:
+    """Points of the weld as in the result, this one as counted now."""
+    here = (found.line[["part", "order", "surface"]] == list(found.key[1:])).all(axis=1)
+    numbers = ["life_km", "load_factor", "max_range_MPa", "utilisation", "fulfilled"]
+    line = found.line.astype({"screened": object})
+    line.loc[here, numbers] = found.row[numbers].to_numpy()
+    line.loc[here, "screened"] = ""
+    return line
 
 
 def _close_by(found: Gathered, figs: Figures) -> list[Shown]:

@@ -10,13 +10,13 @@ from fatigue.report.files.png import WIDTH, draw_png
 from fatigue.report.page_text import page_text
 from fatigue.report.sections.embed import Figures, Shown
 
-HEAD, CAPTION, FOOT = 236, 34, 44  # px
+HEAD, LINE, CAPTION, FOOT = 150, 25, 34, 44  # px; so many of each line beneath the numbers
 ROWS = (
     (520, ("along", "history")),
     (300, ("matrix", "exceedance", "sn", "damage-modes", "modes", "damage-bands", "track")),
     (400, ("psd", "domain-ranges")),
 )  # height of a figure [px], and the figures that are two by two in rows of it
-MOST_NOTES = 3
+MOST_LINES = 4  # beneath the numbers
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,10 +44,12 @@ def picture_page(found: Gathered) -> tuple[str, int]:
     of = drawn(found, figs)
     shown = [of.along, *of.over_time, *of.ranges, *of.damage, *of.domains, *of.spectrum]
     rows = _rows({one.id: one for one in shown})
-    height = HEAD + FOOT + sum(row.height + CAPTION for row in rows)
     facts = facts_of(found)
-    sizes = {"width": WIDTH, "head": HEAD, "caption": CAPTION, "foot": FOOT}
-    context = {**facts, **sizes, "notes": facts["notes"][:MOST_NOTES], "rows": rows}
+    lines = [line for line in (facts["band"], *(f"{note}." for note in facts["notes"])) if line][:MOST_LINES]
+    head = HEAD + LINE * len(lines)
+    height = head + FOOT + sum(row.height + CAPTION for row in rows)
+    sizes = {"width": WIDTH, "head": head, "caption": CAPTION, "foot": FOOT}
+    context = {**facts, **sizes, "lines": lines, "rows": rows}
     return page_text(ROOM, "picture.html", context, figs), height
 
 

@@ -5,9 +5,11 @@ count, a face without toe, the node that a reviewer asks for. Nothing is written
 """
 
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from numbers import Integral
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from threadpoolctl import threadpool_limits
 
@@ -25,9 +27,10 @@ from fatigue.point.written import in_the_way
 from fatigue.report.files.browser import find_browser
 from fatigue.report.files.png import INSTEAD
 from fatigue.report.inputs import find_inputs
-from fatigue.results import ASSESSED, finished_result
+from fatigue.results import finished_result
 from fatigue.stages import stage
 
+READ = ("nodes", "damage", "welds", "band")  # tables; the last one is not in every result
 ENDINGS = (".html", ".png")
 
 
@@ -72,15 +75,14 @@ def point(
     named = None if case_file is None else given_path(case_file, "case_file")
     refuse(CaseError, [*_senseless(order=order, node=node, part=part, threads=threads), *_no_format(file)])
     stage("reading the result and its case")
-    record = finished_result(folder, ASSESSED, ("nodes", "damage", "welds"), no_lock=no_lock)
+    record = finished_result(folder, READ, READ, no_lock=no_lock)
     station = find_station(folder, weld, order=order, node=node, part=part)
     face = station.face(surface)
     if file is not None:
         refuse(DataError, in_the_way(file, folder, record, named, force=force))
         if file.suffix.lower() == ".png":
             find_browser("PNG", INSTEAD)  # before the work, not after it
-    beside = folder if file is None else file.absolute().parent
-    with staged(beside, ".fatigue-point-") as scratch, threadpool_limits(limits=1, user_api="blas"):
+    with _scratch(file) as scratch, threadpool_limits(limits=1, user_api="blas"):
         inputs = reopened(folder, record, scratch, named)
         event_numbers(inputs, event)  # refuses one that there is not
         plan, _ = mission_plan(inputs.body, threads)
@@ -91,6 +93,17 @@ def point(
         if file is not None:
             _show(found, file)
     return replace(summary_of(found), file=file)
+
+
+@contextmanager
+def _scratch(file: Path | None) -> Iterator[Path]:
+    """A folder for what is too large for memory: where the page goes, else that of the system."""
+    if file is not None:
+        with staged(file.absolute().parent, ".fatigue-point-") as beside:
+            yield beside
+        return
+    with TemporaryDirectory(prefix="fatigue-", ignore_cleanup_errors=True) as away:
+        yield Path(away)
 
 
 def _show(found: Gathered, file: Path) -> None:

@@ -9,11 +9,10 @@ import pandas as pd
 
 from fatigue.point.page.checked import checks_of
 from fatigue.point.page.gathered import Gathered
-from fatigue.point.page.notes import notes_of
+from fatigue.point.page.notes import facts_of_band, notes_of
 from fatigue.point.page.tables import worst_cycles
 from fatigue.report.of_record import target_of, weights_of
 from fatigue.report.sections import weld_tables
-from fatigue.report.sections.beside.life_band import band_facts
 from fatigue.report.sections.beside.shear import shear_facts
 from fatigue.report.sections.checks import Recomputed
 from fatigue.report.sections.curves import curve_words
@@ -40,6 +39,7 @@ class PointSummary:
     cycles : the most damaging cycles with ``share`` of the damage
     cycle_count : how many cycles and half cycles one pass of every event has
     finding : what makes the damage; None where nothing does
+    beside : rows of ``checks.parquet`` at its place, as the assessment made them
     verdicts : event, verdict on the frequency domain, reason
     band : of its life; None where it has none
     checks : what was compared with the result
@@ -61,6 +61,7 @@ class PointSummary:
     cycles: pd.DataFrame
     cycle_count: int
     finding: Finding | None
+    beside: pd.DataFrame
     verdicts: tuple[tuple[str, str, str], ...]
     band: BandOfPoint | None
     checks: tuple[Recomputed, ...]
@@ -86,6 +87,7 @@ class PointSummary:
             "frequency_domain": [
                 {"event": event, "verdict": verdict, "reason": reason} for event, verdict, reason in self.verdicts
             ],
+            "checks_beside": self.beside.to_dict("records"),
             "checks": [asdict(check) | {"agrees": check.agrees} for check in self.checks],
             "agrees": self.agrees,
             "file": None if self.file is None else str(self.file),
@@ -155,13 +157,14 @@ def summary_of(found: Gathered) -> PointSummary:
         stored=found.stored.to_dict(),
         counted=found.counted.to_dict(),
         notes=notes_of(found),
-        facts=(*facts, *band_facts(found.bands, row), *shear_facts(row), ("Target", _target(row, target))),
+        facts=(*facts, *facts_of_band(found), *shear_facts(row), ("Target", _target(row, target))),
         events=found.damage.assign(share=damage / total if total > 0.0 else 0.0),
         cycles=worst_cycles(found),
         cycle_count=found.cycle_rows,
         finding=said[0] if said else None,
+        beside=found.beside.rows,
         verdicts=tuple(found.why.reasons()),
-        band=None if found.bands is None else found.bands.of(*found.key),
+        band=found.band,
         checks=tuple(checks_of(found)),
         target_km=target,
     )

@@ -70,7 +70,7 @@ def leading_events(found: Gathered, most: int) -> list[str]:
     """The events that damage most, in the order of the mission."""
     weights = found.damage["event"].map(weights_of(found.record)).astype(float)
     damage = (found.damage["damage_per_pass"] * weights).to_numpy()
-    return found.damage["event"].iloc[np.sort(np.argsort(-damage, kind="stable")[:most])].tolist()
+    return [str(event) for event in found.damage["event"].iloc[np.sort(np.argsort(-damage, kind="stable")[:most])]]
 
 
 def domains_table(found: Gathered, events: Collection[str]) -> PageTable:

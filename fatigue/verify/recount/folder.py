@@ -27,6 +27,7 @@ from fatigue.verify.recount.inputs.case import RecountInputs, open_inputs, stren
 from fatigue.verify.recount.inputs.coordinates import RecountCoordinates, read_coordinates
 from fatigue.verify.recount.layout import FACES, Key, Layout
 from fatigue.verify.recount.sheared import Sheared, decided_by_method, paths_to_count, shear_of
+from fatigue.verify.recount.stored.band import band_row, stored_bands
 from fatigue.verify.recount.stored.checks import check_frame, has_checks, of_weld
 from fatigue.verify.recount.stored.compare import LOAD_FACTOR_STEP, ColumnCheck, Recount, Row, compare, merged
 from fatigue.verify.recount.stored.decisive import failed_by_checks
@@ -307,6 +308,12 @@ def _compared(
             nodes += shear_rows(key, own.values, own.bounds, found, exact_bound=own.exact_bound, toe=own.toe)
         for j, (event, one) in enumerate(zip(events, passes[point].treated, strict=True)):
             damage.append(damage_row(key, event, one, of_damage[i * e + j], is_bound=bool(found["screened"])))
+    in_bands = stored_bands(stored, sorted({station.solved.line.weld for station in stations.values()}))
+    bands = [
+        band_row(key, events, passes[point].treated, values[point]["life_km"], in_bands[key])
+        for point, key in ((point, stored.body.key(point)) for point in stations)
+        if key in in_bands and in_bands[key]["band_reason"] != "screened"
+    ]
     cycles = [row for of in passes.values() for row in of.cycles]
     histograms = [row for of in passes.values() for row in of.histograms]
     half_cycles = [row for of in passes.values() for row in of.half_cycles]
@@ -315,6 +322,7 @@ def _compared(
         *compare("damage", damage, steps),
         *compare("cycles", cycles, steps),
         *(compare("histogram", histograms, steps) if histograms else []),
+        *(compare("band", bands, steps) if bands else []),
         *(compare("path_cycles", half_cycles, steps) if half_cycles else []),
     ]
 

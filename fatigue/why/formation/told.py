@@ -55,8 +55,8 @@ class WatchFinding:
         if self.life_km_without is None or self.cost_km is None:
             return f"{swing}: without its swing the event does no damage here"
         if self.cost_km < 0.0:
-            return f"{swing}: its swing relieves, {self.life_km_without:.4g} km if it followed its load"
-        return f"{swing}: costs {self.cost_km:.4g} km, {self.life_km_without:.4g} km if it followed its load"
+            return f"{swing}: its swing relieves, {self.life_km_without:.3g} km if it followed its load"
+        return f"{swing}: costs {self.cost_km:.3g} km, {self.life_km_without:.3g} km if it followed its load"
 
 
 @dataclass(frozen=True, slots=True)

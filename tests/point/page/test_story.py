@@ -12,8 +12,10 @@ from fatigue.assess import assess
 from fatigue.diagnose import diagnose
 from fatigue.errors import CaseError, DataError
 from fatigue.point.page.story import point
+from fatigue.report.wording import number
 from fatigue.results import json_ready
 from tests.point.cases import CASES, result_of
+from tests.report.reading import Page, values
 from tests.shear_at_toe import shear_at_toe
 from tests.small_case import small_case
 
@@ -145,14 +147,14 @@ def screened(tmp_path_factory):
     return folder / "screened", result_of(path, folder / "counted")
 
 
-def test_a_screened_point_is_counted_now(screened):
+def test_a_screened_point_is_counted_now(screened, tmp_path):
     """Its numbers are those of a job without screening; the bound stands beside, and is above them."""
     folder, counted = screened
     bounded = stored(folder)
     bounded = bounded[bounded["screened"] != ""]
     assert len(bounded)
     row = bounded.iloc[len(bounded) // 2]
-    found = point(folder, row["weld"], order=row["order"], surface=row["surface"])
+    found = point(folder, row["weld"], order=row["order"], surface=row["surface"], output=tmp_path / "page.html")
     truth = row_of(counted, row["weld"], row["order"], row["surface"])
     assert found.agrees
     assert found.checks[0].what == "damage counted now, above the bound of the result"
@@ -163,7 +165,15 @@ def test_a_screened_point_is_counted_now(screened):
     said = " ".join(found.notes)
     assert "did not count this point" in said
     assert row["screened"] in said
-    assert f"{row['damage_per_km'] / truth['damage_per_km']:.2f}"[:3] in said
+    assert f"the bound is {number(row['damage_per_km'] / truth['damage_per_km'])} times as much" in said
+    page = Page((tmp_path / "page.html").read_text(encoding="utf-8"))
+    mark = page.figures["along"]["data"][-1]
+    assert mark["name"] == f"this point, {row['surface']} face"
+    assert values(mark["y"])[0] == pytest.approx(min(truth["life_km"], 1e12))
+    assert page.tables["numbers"][0][1:3] == ["bound in the result", "counted now"]
+    numbers = {cells[0]: cells for cells in page.tables["numbers"]}
+    assert numbers["damage_per_km"][1:3] == [number(row["damage_per_km"]), number(truth["damage_per_km"])]
+    assert numbers["multiaxial_bound"][2] == "–"
 
 
 def test_nothing_damages(tmp_path):
@@ -177,6 +187,10 @@ def test_nothing_damages(tmp_path):
     assert found.agrees
     assert "Nothing damages this point" in found.as_text()
     assert json_ready(found.as_record())["counted"]["life_km"] is None
+    page = Page((tmp_path / "rest.html").read_text(encoding="utf-8"))
+    assert set(page.figures) == {"along", "history"}
+    assert "Its stress does not vary" in page.words
+    assert " nan" not in page.words.lower()
 
 
 def test_an_undamaged_point_below_a_cut_off_has_its_figures(tmp_path):
@@ -222,10 +236,11 @@ def test_records_on_disk_give_the_same_point(results, monkeypatch):
 def test_the_result_stays_as_it_is(results):
     """Nothing is written into its folder, and nothing is left beside the page."""
     folder = results("plain")
-    before = {path.name: path.stat().st_mtime_ns for path in folder.iterdir()}
+    before = {path.name: path.stat().st_mtime_ns for path in [folder, *folder.iterdir()]}
     page = folder.parent / "out" / "page.html"
+    point(folder, "A")
     point(folder, "A", output=page)
-    assert {path.name: path.stat().st_mtime_ns for path in folder.iterdir()} == before
+    assert {path.name: path.stat().st_mtime_ns for path in [folder, *folder.iterdir()]} == before
     assert [path.name for path in page.parent.iterdir()] == ["page.html"]
 
 
@@ -297,11 +312,10 @@ def test_inputs_that_changed_are_refused(tmp_path):
 def test_a_table_that_was_edited_is_refused(tmp_path):
     """The numbers of a point are not compared with those of somebody else."""
     folder = result_of(small_case(seconds=6.0).write(tmp_path / "case"), tmp_path / "result")
-    nodes = stored(folder)
-    nodes["damage_per_km"] *= 2.0
-    nodes.to_parquet(folder / "nodes.parquet")
-    with pytest.raises(DataError, match=r"nodes\.parquet"):
-        point(folder, "A")
+    for name in ("band", "nodes"):
+        stored(folder, name).head(3).to_parquet(folder / f"{name}.parquet")
+        with pytest.raises(DataError, match=rf"{name}\.parquet"):
+            point(folder, "A")
 
 
 def test_without_a_browser_a_picture_is_refused_before_the_work(results, tmp_path, monkeypatch):

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
+PIECES = 30  # of a record, for the scatter of its damage
 _AT_ONCE = 1 << 16  # samples
 _CYCLE = np.dtype([("start", np.int64), ("end", np.int64), ("count", np.float64)])
 
@@ -39,6 +40,12 @@ def count_cycles(stress: Floats, *, recurs: bool) -> RecountCycles:
     if recurs:
         found = _halves_joined(found)
     return RecountCycles((found["start"] + first) % n, (found["end"] + first) % n, found["count"])
+
+
+def in_pieces(cycles: RecountCycles, damage: Floats, samples: int) -> Floats:
+    """Damage of cycles in ``PIECES`` parts of a record, half of each where it begins and half where it ends."""
+    begins, ends = (np.bincount(PIECES * at // samples, damage, PIECES) for at in (cycles.start, cycles.end))
+    return np.asarray(0.5 * (begins + ends), dtype=np.float64)
 
 
 def _path(stress: Floats, first: int, length: int) -> Iterator[float]:

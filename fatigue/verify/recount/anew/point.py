@@ -1,7 +1,7 @@
 """One point of a weld once more: one pass of an event counted by itself."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from fatigue.verify.recount.anew.across_events.turns import Turns, of_places, turning_points
 from fatigue.verify.recount.anew.curve import RecountCurve
-from fatigue.verify.recount.anew.cycles import RecountCycles, count_cycles
+from fatigue.verify.recount.anew.cycles import RecountCycles, count_cycles, in_pieces
 from fatigue.verify.recount.anew.mean_stress import MeanStress, stress_ratio, stress_ratios
 from fatigue.verify.recount.anew.record import RecountRecord, SpectrumRules, welch_moments
 from fatigue.verify.recount.anew.rounding import (
@@ -60,7 +60,7 @@ class OnePass:
     ``rows`` is the table of cycles. ``ranges``, ``counts``, ``low`` and ``high`` are the equivalent range of each cycle
     without mean stress, its count and its two stresses, and empty where damage scales with one power of the load.
     ``bounds`` are what rounding may do to the quantities, ``cycle_bounds`` to the largest cycle. ``turns`` are what
-    counting several passes in a row needs, where somebody does.
+    counting several passes in a row needs, where somebody does. ``pieces`` are the damage of a pass by parts of time.
     """
 
     quantities: Values
@@ -72,6 +72,7 @@ class OnePass:
     bounds: Bounds
     cycle_bounds: Bounds
     turns: Turns | None = None
+    pieces: Floats = field(default_factory=lambda: np.zeros(0))
 
 
 def point_of(
@@ -183,7 +184,8 @@ def one_pass(
     turns = None if event is None else _turns(event, cycles, modal_stress, s, record, read)
     bounds = pass_bounds(counted, values, curve), cycle_bounds(counted, curve)
     bounds[1]["instant"] = SAME_INSTANT * record.fine_step
-    return OnePass(values, x, n, low, high, rows, *bounds, turns)
+    pieces = in_pieces(cycles, rows["damage"], len(s))
+    return OnePass(values, x, n, low, high, rows, *bounds, turns, pieces)
 
 
 def _pieces(modal_stress: Floats, q: Floats) -> Iterator[Floats]:
