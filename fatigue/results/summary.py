@@ -13,12 +13,14 @@ from fatigue.errors import CaseError, DataError, Problem, given_names, given_pat
 from fatigue.results.belonging import refuse_mixed
 from fatigue.results.beside.checks import BesideToe, read_beside_toe
 from fatigue.results.beside.life_band import (
+    POINT,
     REASONS,
     SHORT_REASONS,
     WHAT_IT_IS_NOT,
     BandOfPoint,
     Bands,
     read_bands,
+    worst_of,
 )
 from fatigue.results.beside.sensitivity import Sensitivity, in_words, read_sensitivity
 from fatigue.results.dictionary.sensitivity import VARIANTS
@@ -267,7 +269,7 @@ def result_summary(folder: Path | str, *, top: int = 10, only: Sequence[str] = (
         unverified_curves=tuple(curves_of_status(record, "unverified")),
         sensitivity=sensitivity,
         beside_toe=beside_toe,
-        bands=read_bands(folder, sorted({*welds["weld"], *points["weld"]})),
+        bands=read_bands(folder, pd.concat([worst_of(welds), points[list(POINT)]])),
     )
 
 

@@ -5,6 +5,7 @@ from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import brentq
 from scipy.special import ndtr, ndtri
 
 Floats = NDArray[np.float64]
@@ -55,11 +56,8 @@ def life_of_strengths(log_life: Floats, sigma_other: float, survival: float) -> 
     if len(finite) == 0 or _survival(log_life, finite[-1] + 9.0 * sigma_other, sigma_other) >= survival:
         return float(np.inf)
     low, high = finite[0] - 9.0 * sigma_other, finite[-1] + 9.0 * sigma_other
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        reached = _survival(log_life, middle, sigma_other) >= survival
-        low, high = (middle, high) if reached else (low, middle)
-    return float(np.exp(0.5 * (low + high)))
+    found = brentq(lambda at: _survival(log_life, at, sigma_other) - survival, low, high, xtol=1e-13, rtol=1e-14)
+    return float(np.exp(found))
 
 
 def _survival(log_life: Floats, at: float, sigma_other: float) -> float:

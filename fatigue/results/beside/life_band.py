@@ -82,7 +82,7 @@ class BandOfPoint:
 
 
 class Bands:
-    """Bands of some points; ``rows`` are those of the table."""
+    """Bands of some points; ``rows`` are theirs in the table."""
 
     def __init__(self, rows: pd.DataFrame) -> None:
         self._rows = {key: _of_row(row) for key, row in zip(_keys(rows), rows.to_dict("records"), strict=True)}
@@ -100,8 +100,15 @@ class Bands:
         return [self._rows.get(key) for key in _keys(points, prefix)]
 
 
-def read_bands(folder: Path, welds: list[str]) -> Bands | None:
-    """Bands of the points of some welds; None of a result without the table.
+def worst_of(welds: pd.DataFrame) -> pd.DataFrame:
+    """Worst points of some welds of the register, as ``read_bands`` takes points."""
+    return welds[["weld", *(f"worst_{name}" for name in POINT[1:])]].set_axis(list(POINT), axis=1)
+
+
+def read_bands(folder: Path, points: pd.DataFrame) -> Bands | None:
+    """Bands of some points, of which a frame has weld, part, order and surface; None of a result without the table.
+
+    A table of all points of a train is read weld by weld, and no more of it kept than is asked for.
 
     Raises
     ------
@@ -109,9 +116,10 @@ def read_bands(folder: Path, welds: list[str]) -> Bands | None:
     """
     if not table_path(folder, "band").exists():
         return None
-    rows = rows_of_welds(folder, "band", welds).values()
-    numbers = np.sort(np.concatenate([np.zeros(0, np.int64), *rows]))
-    return Bands(read_rows(folder, "band", numbers).to_pandas())
+    wanted, welds = set(_keys(points)), [str(weld) for weld in points["weld"].unique()]
+    numbers = np.sort(np.concatenate([np.zeros(0, np.int64), *rows_of_welds(folder, "band", welds).values()]))
+    at = [key in wanted for key in _keys(read_rows(folder, "band", numbers, list(POINT)).to_pandas())]
+    return Bands(read_rows(folder, "band", numbers[np.array(at, dtype=np.bool_)]).to_pandas())
 
 
 def _keys(rows: pd.DataFrame, prefix: str = "") -> list[tuple[str, int, int, str]]:

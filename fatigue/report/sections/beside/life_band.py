@@ -18,6 +18,7 @@ from fatigue.results.beside.life_band import (
     BandOfPoint,
     Bands,
     read_bands,
+    worst_of,
 )
 
 MOST = 20  # welds with their row; the others are in the table of the result
@@ -25,9 +26,9 @@ SURVIVALS = {"life_km_p50": "50 %", "life_km_p90": "90 %", "life_km_p97_7": "97.
 
 
 def bands_of(result: ShownResult) -> Bands | None:
-    """Bands of the points of the welds that the page names; None of a result without bands."""
-    named = {*result.assessed["weld"].head(MOST), *result.detailed}
-    return read_bands(result.folder, sorted(named))
+    """Bands of the worst points of the welds that the page names; None of a result without bands."""
+    shown = (np.arange(len(result.assessed)) < MOST) | result.assessed["weld"].isin(result.detailed)
+    return read_bands(result.folder, worst_of(result.assessed[shown]))
 
 
 def life_band_section(result: ShownResult, bands: Bands | None, links: Mapping[str, str]) -> dict[str, Any]:
