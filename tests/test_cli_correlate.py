@@ -44,6 +44,16 @@ def test_a_sound_record_ends_with_0_and_says_what_it_rests_on(made, tmp_path):
     assert list((tmp_path / "out").glob("*.csv")) == []
 
 
+def test_a_case_behind_the_records_is_told_where_it_belongs(made, tmp_path):
+    """What follows ``--records FILE`` is a record."""
+    files = ["--gauges", "gauges.csv", "--channels", "channels.csv", "--event", EVENT, "-o", tmp_path / "out"]
+    done = fatigue(
+        "gauges", "correlate", "--records", "ride.parquet", "b.parquet", "case.toml", *files, cwd=made.folder
+    )
+    assert done.returncode == 2
+    assert "CASE stands first" in done.stderr
+
+
 def test_several_records_follow_the_option(made, tmp_path):
     """``--records a b`` and ``--records a --records b`` are the same; tables as CSV, JSON for machines."""
     made.record("second")

@@ -16,11 +16,25 @@ SHORTEST = np.sin(np.deg2rad(10.0))  # part of a direction in the plane: less sa
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Piece:
-    """A part of a grid on one element: its share of the length, stress (3, c) [MPa] in axes there, angle to their x."""
+    """A part of a grid on one element.
+
+    Attributes
+    ----------
+    share : of the length of the grid
+    stress : (3, c) s_xx, s_yy, s_xy in axes there [MPa]
+    angle_deg : from their x to the grid
+    material : of that element
+    """
 
     share: float
     stress: Floats
     angle_deg: float
+    material: Material
+
+    def strain(self, transverse_sensitivity: float, turned_deg: float = 0.0) -> Floats:
+        """What a grid here shows per unit of each coordinate, (c,) [ue], turned by so much in its plane [deg]."""
+        E, nu = self.material.E, self.material.nu
+        return strain_reading(self.stress, self.angle_deg + turned_deg, E, nu, transverse_sensitivity)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -31,7 +45,7 @@ class Grid:
     ----------
     pieces : of its length, one for each element that it crosses
     angle_deg : from axis x of the element under its middle, or of the point, to the grid
-    material : of the plate
+    material : of the plate under its middle
     transverse_sensitivity : [-]
     xyz : (3,) its middle on the mid-surface of the plate, or the stress point, or the node of the line [mm]
     direction, normal : (3,) unit vectors along the grid and out of the face
@@ -62,12 +76,8 @@ class Grid:
     doubts: tuple[Problem, ...] = ()
 
     def strain(self, turned_deg: float = 0.0) -> Floats:
-        """What the grid shows per unit of each coordinate, (c,) [1e-6], turned by so much in its plane [deg]."""
-        E, nu = self.material.E, self.material.nu
-        readings = [
-            piece.share * strain_reading(piece.stress, piece.angle_deg + turned_deg, E, nu, self.transverse_sensitivity)
-            for piece in self.pieces
-        ]
+        """What the grid shows per unit of each coordinate, (c,) [ue], turned by so much in its plane [deg]."""
+        readings = (piece.share * piece.strain(self.transverse_sensitivity, turned_deg) for piece in self.pieces)
         return np.asarray(sum(readings))
 
     def along(self) -> Floats:
@@ -115,11 +125,11 @@ def grid_at_point(gauge: Gauge, found: AtPoint, properties: Properties) -> Grid:
     ------
     DataError : as ``given_angle`` and ``material_of``
     """
-    angle = given_angle(gauge, found.axes)
+    angle, material = given_angle(gauge, found.axes), material_of(gauge, properties, None)
     return Grid(
-        pieces=(Piece(1.0, found.stress, angle),),
+        pieces=(Piece(1.0, found.stress, angle, material),),
         angle_deg=angle,
-        material=material_of(gauge, properties, None),
+        material=material,
         transverse_sensitivity=gauge.transverse_sensitivity,
         xyz=found.xyz,
         direction=vector_at(found.axes, angle),
@@ -140,7 +150,7 @@ def grid_at_toe(gauge: Gauge, toe: AtToe, properties: Properties) -> Grid:
     material = material_of(gauge, properties, None)
     stress = np.stack([toe.stress, material.nu * toe.stress, np.zeros_like(toe.stress)])
     return Grid(
-        pieces=(Piece(1.0, stress, 0.0),),
+        pieces=(Piece(1.0, stress, 0.0, material),),
         angle_deg=0.0,
         material=material,
         transverse_sensitivity=gauge.transverse_sensitivity,

@@ -25,7 +25,7 @@ def normal_stress(stress: Floats, angle_deg: float) -> Floats:
 
 
 def normal_strain(stress: Floats, angle_deg: float, E: float, nu: float) -> Floats:
-    """Strain in a direction [1e-6] under plane stress s_xx, s_yy, s_xy (3, ...) [MPa].
+    """Strain in a direction [ue] under plane stress s_xx, s_yy, s_xy (3, ...) [MPa].
 
     >>> normal_strain(np.array([5.0, 0.0, 0.0]), 45.0, 70000.0, 0.3).round(6)
     np.float64(25.0)
@@ -38,7 +38,7 @@ def normal_strain(stress: Floats, angle_deg: float, E: float, nu: float) -> Floa
 
 
 def grid_reading(along: Floats, across: Floats, transverse_sensitivity: float) -> Floats:
-    """Strain that a grid shows [1e-6], of the strains along and across it and its transverse sensitivity K_t [-].
+    """Strain that a grid shows [ue], of the strains along and across it and its transverse sensitivity K_t [-].
 
     ``(e_a + K_t e_t) / (1 - nu_0 K_t)``: its gauge factor is that in uniaxial stress on steel of nu_0 = 0.285.
 
@@ -50,7 +50,7 @@ def grid_reading(along: Floats, across: Floats, transverse_sensitivity: float) -
 
 
 def strain_reading(stress: Floats, angle_deg: float, E: float, nu: float, transverse_sensitivity: float) -> Floats:
-    """Strain that a grid in a direction shows [1e-6] under plane stress (3, ...) [MPa]."""
+    """Strain that a grid in a direction shows [ue] under plane stress (3, ...) [MPa]."""
     along, across = (normal_strain(stress, angle_deg + turn, E, nu) for turn in (0.0, 90.0))
     return grid_reading(along, across, transverse_sensitivity)
 

@@ -12,7 +12,7 @@ import numpy as np
 from fatigue.errors import DataError
 from fatigue.gauges.gauge_file import Gauge
 from fatigue.gauges.grid import Grid
-from fatigue.gauges.instrument import Floats, strain_reading
+from fatigue.gauges.instrument import Floats
 from fatigue.gauges.on_element import Plates, piece_on
 from fatigue.gauges.place import ALIKE, Shells
 from fatigue.weld.line import WeldLine
@@ -96,15 +96,14 @@ def neighbours(gauge: Gauge, grid: Grid, plates: Plates | None, covariance: Floa
     if plates is None or grid.element_index < 0:
         return Neighbours(0, float("nan"))
     own = rms(grid.strain(), covariance)
-    E, nu = grid.material.E, grid.material.nu
     found = []
     for index in beside(plates.shells, grid.element_index):
         try:
             piece = piece_on(gauge, plates, index, grid.normal, grid.direction, 1.0)
         except DataError:
             continue
-        row = strain_reading(piece.stress, piece.angle_deg, E, nu, gauge.transverse_sensitivity)
-        found.append(abs(rms(row, covariance) / own - 1.0) if own > 0.0 else np.nan)
+        theirs = rms(piece.strain(gauge.transverse_sensitivity), covariance)
+        found.append(abs(theirs / own - 1.0) if own > 0.0 else np.nan)
     return Neighbours(len(found), float(max(found, default=np.nan)))
 
 

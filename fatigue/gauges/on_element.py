@@ -10,7 +10,7 @@ from fatigue.gauges.forces import WARNED, ElementLoads, corner_count, imbalance,
 from fatigue.gauges.gauge_file import Gauge
 from fatigue.gauges.grid import Grid, Piece, angle_in, given_angle, vector_at
 from fatigue.gauges.instrument import Floats
-from fatigue.gauges.material import Properties, material_of, thickness_of
+from fatigue.gauges.material import Material, Properties, material_of, thickness_of
 from fatigue.gauges.place import MOST_DISTANCE, Shells, Spot, crossed, located, shells_of
 from fatigue.pipeline.solve.body import Body
 from fatigue.weld.element_forces import BALANCE_RED
@@ -69,7 +69,7 @@ def grid_on_element(gauge: Gauge, plates: Plates) -> Grid:
     return Grid(
         pieces=tuple(pieces),
         angle_deg=angle,
-        material=material_of(gauge, plates.properties, int(shells.pid[spot.index])),
+        material=material_under(gauge, plates, spot.index),
         transverse_sensitivity=gauge.transverse_sensitivity,
         xyz=centre,
         direction=direction,
@@ -88,7 +88,7 @@ def piece_on(gauge: Gauge, plates: Plates, index: int, normal: Floats, direction
 
     Raises
     ------
-    DataError : the element has no forces, or not all of them
+    DataError : the element has no forces, or not all of them; its thickness or its material is not known
     """
     shells, loads = plates.shells, plates.loads
     axes = shells.axes[index]
@@ -96,7 +96,17 @@ def piece_on(gauge: Gauge, plates: Plates, index: int, normal: Floats, direction
     force = loads.of(shells, index, gauge.where)
     face = TOP if float(axes[2] @ normal) > 0.0 else BOTTOM
     stress = element_stress(loads.nodes(shells, index), thickness, force, corner_count(shells, index))[face]
-    return Piece(share, stress, angle_in(axes, direction))
+    return Piece(share, stress, angle_in(axes, direction), material_under(gauge, plates, index))
+
+
+def material_under(gauge: Gauge, plates: Plates, index: int) -> Material:
+    """Material of an element under a gauge.
+
+    Raises
+    ------
+    DataError : as ``material_of``
+    """
+    return material_of(gauge, plates.properties, int(plates.shells.pid[index]))
 
 
 def plate_thickness(gauge: Gauge, plates: Plates, index: int) -> float:

@@ -31,7 +31,7 @@ class GaugeRows:
     ----------
     gauges : as they are listed
     grids : where each sits, and the stress under it
-    strain : (g, c) what the grid shows per unit of each coordinate, transverse sensitivity included [1e-6]
+    strain : (g, c) what the grid shows per unit of each coordinate, transverse sensitivity included [ue]
     stress : (g, c) normal stress of the face along the grid [MPa]
     plates : the shells and their forces; None where no gauge is on an element
     """

@@ -25,7 +25,7 @@ class Reading:
     ----------
     event : its name
     start, step : file time of the first kept sample, and between samples [s]
-    strain : (g, t) what the grids show [1e-6]
+    strain : (g, t) what the grids show [ue]
     stress : (g, t) normal stress along them [MPa]
     residue : how its cycles are closed
     """

@@ -19,7 +19,7 @@ def grid(stress, angle, *, stand_in=False):
     """A grid at an angle under a stress (3, c)."""
     zero = np.zeros(3)
     return Grid(
-        (Piece(1.0, np.asarray(stress, float), angle),),
+        (Piece(1.0, np.asarray(stress, float), angle, Material(E, NU)),),
         angle,
         Material(E, NU),
         0.0,

@@ -10,6 +10,7 @@ import pytest
 from fatigue.case import load_case
 from fatigue.errors import DataError
 from fatigue.gauges.gauge_file import read_gauges
+from fatigue.gauges.near import neighbours
 from fatigue.gauges.rows import gauge_rows
 from fatigue.pipeline.solve.body import read_body
 from fatigue.pipeline.solve.model import read_model
@@ -211,6 +212,21 @@ def test_a_long_grid_is_the_mean_over_its_length(tmp_path):
     of = found(case, tmp_path)
     assert of["mean"][0] == pytest.approx(1e6 * STRAIN * (2 * 20 + 3 * 10) / 30)
     assert of["turned"][0] == pytest.approx(1e6 * STRAIN * (3 + 4) / 2)
+
+
+def test_a_grid_across_two_materials_reads_each_in_its_own(tmp_path):
+    """The same forces on half the modulus are twice the strain, under the grid and on a neighbour."""
+    case = gauge_case(table("mean,element,,35,1005,1,0,0,1,,1,0,0,,,,,30,,,,", "x,element,102,,,,,,,0,,,,top,,,,,,,,"))
+    case.elements.loc[case.elements.element == 103, "pid"] = 3
+    soft = pd.DataFrame({"pid": [3], "E_MPa": E / 2, "nu": NU, "thickness_mm": 2.0, "bending_thickness_mm": 2.0})
+    case.properties = pd.concat([case.properties, soft.assign(rho_t_mm3=0.0)])
+    rows, _ = rows_of(*case.write(tmp_path))
+    mean, at_102 = rows.strain[:, 0]
+    assert mean == pytest.approx(1e6 * STRAIN * (2 * 20 + 2 * 3 * 10) / 30)
+    tension = np.diag([1.0, 0.0, 0.0])
+    beside = neighbours(rows.gauges[1], rows.grids[1], rows.plates, tension)  # 101 reads 1, 103 now 2 x 3 instead of 2
+    assert (beside.count, beside.largest) == (2, pytest.approx(6.0 / 2.0 - 1.0))
+    assert at_102 == pytest.approx(1e6 * STRAIN * 2)
 
 
 def test_scale_of_modes_and_the_sense_of_forces_apply(tmp_path):

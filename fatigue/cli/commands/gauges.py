@@ -176,6 +176,8 @@ def correlate(
     """
     low, high = _band(band)
     files = (*records, *more_records)
+    if any(path.suffix == ".toml" for path in files):
+        raise click.UsageError("CASE stands first: fatigue gauges correlate CASE --records FILE FILE ...")
     refuse_missing_case(case_file)
     refuse_all(missing_tables(gauge_file, channel_file, calibration, *files))
     from fatigue.gauges.correlated.asked import Asked

@@ -1,4 +1,4 @@
-"""What is asked of a comparison, and what of it the case and the records allow: event, band, exponent."""
+"""What is asked of a comparison, and what of it the case and the records allow: event, band."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -6,7 +6,7 @@ from datetime import datetime
 
 from fatigue.case import Case, Event, check_distance, event_length_km
 from fatigue.errors import CaseError, DataError, Problem
-from fatigue.pipeline.solve.known_curves import curves_of_case
+from fatigue.gauges.exponent import exponent_problems
 from fatigue.shown import few, visible
 from fatigue.spectrum.moments import default_upper_hz
 
@@ -35,9 +35,10 @@ class Asked:
 
     def problems(self) -> Iterator[Problem]:
         """What makes no sense whatever the files are."""
-        for name, value in (("km", self.km), ("max_lag_s", self.max_lag_s), ("exponent", self.exponent)):
+        for name, value in (("km", self.km), ("max_lag_s", self.max_lag_s)):
             if value is not None and not 0.0 < value < float("inf"):
                 yield Problem("argument", name, f"{value} is no finite number above 0", "Give one, or leave it out")
+        yield from exponent_problems(self.exponent)
         if self.bridge < 0:
             yield Problem("argument", "bridge", f"{self.bridge} samples are no gap", "Give 0 or more")
         if self.recorded_at is not None and self.recorded_at.tzinfo is None:
@@ -108,12 +109,3 @@ def band_of(
             Problem("no_common_band", "--band", what, f"Widen it to {FEWEST_LINES} lines, or record longer")
         )
     return low, high
-
-
-def exponent_of(asked: Asked, case: Case) -> tuple[float, str]:
-    """Exponent k of the pseudo-damage, and where it is from."""
-    if asked.exponent is not None:
-        return asked.exponent, "as asked"
-    curve = curves_of_case(case)[case.curve.name]
-    is_master = curve.applies == "dS" and len(curve.slopes) == 1
-    return float(curve.slopes[0]), f"{'1/h' if is_master else 'first slope'} of curve '{curve.name}'"

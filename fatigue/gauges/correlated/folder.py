@@ -1,10 +1,9 @@
 """The folder of a correlation: its tables, its page and its record, in place of those before and of nothing else."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping
 from dataclasses import asdict
 from pathlib import Path
 
-from fatigue.files.hashes import sha256
 from fatigue.files.recorded import Filled
 from fatigue.gauges.correlated.page.page import PAGE, correlation_page
 from fatigue.gauges.correlated.summary import Correlation
@@ -16,8 +15,8 @@ RECORD = "correlation.json"
 FILLED = Filled("fatigue gauges correlate", "correlation", RECORD, (*table_files(tuple(CORRELATED)), PAGE))
 
 
-def write_correlation(folder: Path, found: Correlation, inputs: Sequence[Path], *, csv: bool) -> list[str]:
-    """Write tables, page and record; returns their names.
+def write_correlation(folder: Path, found: Correlation, inputs: Mapping[str, str], *, csv: bool) -> list[str]:
+    """Write tables, page and record, which has ``inputs`` by their SHA-256; returns their names.
 
     Raises
     ------
@@ -25,7 +24,7 @@ def write_correlation(folder: Path, found: Correlation, inputs: Sequence[Path], 
     """
     said = {
         "title": found.title,
-        "inputs": {path.name: sha256(path) for path in inputs},
+        "inputs": dict(inputs),
         **found.settings(),
         "case_line": asdict(found.line),
         "verdicts": {one.channel.name: one.verdict for one in found.comparisons},

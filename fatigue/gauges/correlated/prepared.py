@@ -51,7 +51,7 @@ class Prepared:
     Attributes
     ----------
     record : where it is from
-    raw : (t,) samples as they are read [ue], NaN where they are missing
+    raw : (t,) samples before anything but their calibration [ue], NaN where they are missing
     flags : of the samples, in their own unit
     cut : of the samples, in their own unit
     ue_per_raw : size of a raw unit [ue]

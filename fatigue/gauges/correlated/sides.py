@@ -66,7 +66,7 @@ class Counted:
         >>> round(found.range_exceeded(10.0), 9), found.range_exceeded(0.5)
         (6.0, nan)
         """
-        if not self.range.size:
+        if not self.range.size or np.isnan(self.per_km).any():
             return np.nan
         reached = np.log(np.cumsum(self.per_km))
         return float(np.interp(np.log(per_km), reached, self.range, left=np.nan, right=np.nan))
@@ -82,7 +82,8 @@ def counted(records: tuple[Strain, ...], residue: Residue, km: float) -> Counted
     """Cycles of the records of a side over the distance that was counted.
 
     A record that nothing is cut out of is counted with the residue of the event. The segments of one that is cut are
-    counted alone, as single passes: what closes across a cut is not known (measured_data 2.1).
+    counted alone, as single passes: what closes across a cut is not known (measured_data 2.1). Over no distance at all
+    nothing is had per km: NaN.
     """
     stretches = [(i, *segment) for i, record in enumerate(records) for segment in record.segments]
     ranges, counts, largest, top = [np.zeros(0)], [np.zeros(0)], None, 0.0
@@ -96,7 +97,8 @@ def counted(records: tuple[Strain, ...], residue: Residue, km: float) -> Counted
             largest = Place(i, *sorted((first + int(cycles.start[at]), first + int(cycles.end[at]))))
     all_ranges = np.concatenate(ranges)
     order = np.argsort(-all_ranges, kind="stable")
-    return Counted(all_ranges[order], np.concatenate(counts)[order] / km, largest)
+    per_km = np.concatenate(counts)[order] / (km if km > 0.0 else np.nan)
+    return Counted(all_ranges[order], per_km, largest)
 
 
 def rms(records: tuple[Strain, ...]) -> float:

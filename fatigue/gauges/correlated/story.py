@@ -10,19 +10,20 @@ from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-import numpy as np
-
 from fatigue.case import Case, Event, given_case
 from fatigue.errors import CaseError, Problem, given_path, refuse
 from fatigue.files.recorded import refuse_foreign
-from fatigue.gauges.correlated.asked import Asked, band_of, event_named, exponent_of, km_of_pass
+from fatigue.gauges.case_files import case_files, input_hashes
+from fatigue.gauges.correlated.asked import Asked, band_of, event_named, km_of_pass
 from fatigue.gauges.correlated.compared import How, comparison
 from fatigue.gauges.correlated.doubts import doubts
 from fatigue.gauges.correlated.folder import FILLED, write_correlation
 from fatigue.gauges.correlated.measurement import MeasuredFiles, listed, recorded
 from fatigue.gauges.correlated.prepared import Treatment
 from fatigue.gauges.correlated.summary import Correlation
+from fatigue.gauges.exponent import exponent_of
 from fatigue.gauges.gauge_file import Gauge
+from fatigue.gauges.instrument import bridge
 from fatigue.gauges.measured.record_files import Record
 from fatigue.gauges.rows import gauge_rows
 from fatigue.gauges.simulated import Reading, simulated
@@ -78,7 +79,7 @@ def correlate(
     )
     folder = None if into is None else given_path(into, "into")
     if folder is not None:
-        refuse_foreign(folder, FILLED, force=force, inputs=[case.path, *files, *case.input_files().values()])
+        refuse_foreign(folder, FILLED, force=force, inputs=[*case_files(case), *files])
 
     stage("reading gauges, channels and calibrations")
     of_event = event_named(case, event)
@@ -91,10 +92,9 @@ def correlate(
 
     how = _how(body, of_event, asked, reading, measured.records)
     stage("comparing %d channels", len(tables.channels.strain))
-    strain_of = dict(zip(tables.gauges, reading.strain, strict=True))
     found = []
     for channel in tables.channels.strain:
-        simulated_strain = np.sum([weight * strain_of[name] for name, weight in channel.terms], axis=0)
+        simulated_strain = bridge(reading.strain, tuple(tables.gauges), channel.terms)
         calibrated = tables.calibrations[channel.name]
         found.append(comparison(channel, calibrated, measured.records, measured.distances, simulated_strain, how))
     told = doubts(found, tables.gauges, how.treatment.high_hz)
@@ -113,7 +113,7 @@ def correlate(
     )
     if folder is not None:
         stage("writing tables and page")
-        written = write_correlation(folder, result, [case.path, *files], csv=csv)
+        written = write_correlation(folder, result, input_hashes(case, files), csv=csv)
         result = replace(result, written=tuple(str(folder / name) for name in written))
     return result
 
@@ -140,7 +140,7 @@ def _how(body: Body, event: Event, asked: Asked, reading: Reading, records: Sequ
     rates = [rate_hz, *(record.rate_hz for record in records)]
     shortest = min(lasting, *(record.samples * record.step for record in records))
     low, high = band_of(asked, rates, shortest, top_mode_hz(body))
-    k, k_source = exponent_of(asked, body.case)
+    k, k_source = exponent_of(body.case, asked.exponent)
     common = None if asked.max_lag_s is None else min(samples, *(record.samples_at_ratio for record in records))
     return How(
         event=event.name,

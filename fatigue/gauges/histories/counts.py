@@ -49,12 +49,12 @@ class GaugeSpectra:
 
     Attributes
     ----------
-    edges : (b + 1,) of the classes, common to all events [1e-6]
+    edges : (b + 1,) of the classes, common to all events [ue]
     ranges : of each event per km of the mission [1/km]
     cycles : sum n of a pass
-    largest : largest range [1e-6]
+    largest : largest range [ue]
     power_sum : sum n r^k of a pass
-    equivalent : range that does the same at one cycle a second [1e-6]
+    equivalent : range that does the same at one cycle a second [ue]
     weight : passes per km of the mission [1/km]
     """
 

@@ -9,6 +9,7 @@ from fatigue.gauges.histories.counts import GaugeSpectra
 from fatigue.gauges.histories.tables import GaugeRow
 from fatigue.gauges.instrument import Floats
 from fatigue.gauges.simulated import Reading
+from fatigue.gauges.units import MICROSTRAIN
 from fatigue.report.figures.scene import BodyOutline, body_traces, space_around
 from fatigue.report.figures.style import DASHES, INK, SERIES, Trace, axis, figure, log_axis, single
 from fatigue.report.wording import in_figure, number
@@ -81,7 +82,7 @@ def excerpts(rows: Sequence[GaugeRow], readings: Sequence[Reading]) -> list[tupl
             _line(rows[n].gauge, i, reading.time[some], change[i, some], "%{x:.4g} s: %{y:.4g}")
             for i, n in enumerate(drawn)
         ]
-        title = f"strain about its mean [{MICRO}]"
+        title = f"strain about its mean [{MICROSTRAIN}]"
         found.append((reading.event, figure(data, height=300, xaxis=axis("time [s]"), yaxis=axis(title))))
     return found
 
@@ -105,11 +106,10 @@ def exceedance(rows: Sequence[GaugeRow], spectra: Sequence[GaugeSpectra]) -> go.
         data,
         height=380,
         xaxis=log_axis("cycles reached or exceeded in 1e6 km [-]", low, high),
-        yaxis=axis(f"strain range [{MICRO}]", rangemode="tozero"),
+        yaxis=axis(f"strain range [{MICROSTRAIN}]", rangemode="tozero"),
     )
 
 
-MICRO = "10<sup>−6</sup>"
 _SILENT: Trace = {"hoverinfo": "skip"}
 
 
@@ -122,7 +122,7 @@ def _hover(row: GaugeRow) -> str:
     on = (
         f"element {row.element}, {row.surface}" if row.element else f"{in_figure(row.point or row.weld)}, {row.surface}"
     )
-    return f"{in_figure(row.gauge)}<br>{on}<br>{at}<br>rms {number(row.rms_ue)} {MICRO}"
+    return f"{in_figure(row.gauge)}<br>{on}<br>{at}<br>rms {number(row.rms_ue)} {MICROSTRAIN}"
 
 
 def _line(name: str, i: int, x: Floats, y: Floats, hover: str) -> Trace:

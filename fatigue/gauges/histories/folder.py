@@ -1,10 +1,9 @@
 """The folder of the readings of gauges: tables, page and record, in place of those before and of nothing else."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, replace
 from pathlib import Path
 
-from fatigue.files.hashes import sha256
 from fatigue.files.recorded import Filled
 from fatigue.gauges.histories.counts import Counted, GaugeSpectra
 from fatigue.gauges.histories.page import PAGE, histories_page
@@ -28,13 +27,14 @@ def write_histories(
     readings: Sequence[Reading],
     counts: Sequence[Counted],
     spectra: Sequence[GaugeSpectra],
-    inputs: Sequence[Path],
+    inputs: Mapping[str, str],
     *,
     csv: bool,
 ) -> Histories:
     """Write tables, page and record; returns what was found, with the names of the files.
 
-    What an earlier run wrote and this one does not is removed. The record has the SHA-256 of every file.
+    What an earlier run wrote and this one does not is removed. The record has the SHA-256 of every
+    file, ``inputs`` by their names.
 
     Raises
     ------
@@ -45,7 +45,8 @@ def write_histories(
         "gauges": found.table,
         "events": [reading.event for reading in readings],
         "exponent": found.exponent,
-        "inputs": {path.name: sha256(path) for path in inputs},
+        "exponent_source": found.exponent_source,
+        "inputs": dict(inputs),
         "said": found.said(),
         "warnings": [asdict(problem) for problem in found.warnings],
     }

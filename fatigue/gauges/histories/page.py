@@ -7,6 +7,7 @@ from fatigue.gauges.histories.figures import EXCERPT_S, MOST_HISTORIES, MOST_SPE
 from fatigue.gauges.histories.summary import Histories
 from fatigue.gauges.histories.tables import EventRow, GaugeRow
 from fatigue.gauges.simulated import Reading
+from fatigue.gauges.units import MICROSTRAIN
 from fatigue.pipeline.solve.body import Body
 from fatigue.report.figures.scene import body_outline
 from fatigue.report.page_text import page_text
@@ -15,7 +16,6 @@ from fatigue.report.sections.cells import Cell, Heading, PageTable, num, percent
 from fatigue.report.sections.embed import Figures
 
 PAGE = "gauges.html"
-UE = "10⁻⁶"
 OF_PLACES = "Gauges on the body, with the direction in which they read."
 
 
@@ -87,7 +87,7 @@ def _gauges(rows: Sequence[GaugeRow]) -> PageTable:
 def _surety(rows: Sequence[GaugeRow]) -> PageTable:
     headings = (
         _words("gauge"),
-        Heading("rms", UE, numeric=True),
+        Heading("rms", MICROSTRAIN, numeric=True),
         Heading("rms", "MPa", numeric=True),
         Heading("turned by 5°", "-", numeric=True),
         Heading("neighbours", "-", numeric=True),
@@ -115,9 +115,9 @@ def _events(rows: Sequence[EventRow]) -> PageTable:
     headings = (
         _words("gauge"),
         _words("event"),
-        Heading("rms", UE, numeric=True),
-        Heading("largest range", UE, numeric=True),
-        Heading("at 1 Hz", UE, numeric=True),
+        Heading("rms", MICROSTRAIN, numeric=True),
+        Heading("largest range", MICROSTRAIN, numeric=True),
+        Heading("at 1 Hz", MICROSTRAIN, numeric=True),
         Heading("pseudo-damage", "per km", numeric=True),
         Heading("per km of the mission", "", numeric=True),
     )

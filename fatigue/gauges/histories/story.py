@@ -6,7 +6,6 @@ with angle and place says how far a measurement may differ for no other reason t
 """
 
 from collections.abc import Callable, Iterator, Sequence
-from numbers import Real
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -14,9 +13,10 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from fatigue.case import Case, given_case
-from fatigue.case.tables import GAUGE_FILES
 from fatigue.errors import CaseError, Problem, given_names, given_path, refuse
 from fatigue.files.recorded import refuse_foreign
+from fatigue.gauges.case_files import case_files, input_hashes
+from fatigue.gauges.exponent import exponent_of, exponent_problems
 from fatigue.gauges.gauge_file import read_gauges
 from fatigue.gauges.histories.counts import Counted, counted_cycles, gauge_spectra
 from fatigue.gauges.histories.folder import FILLED, write_histories
@@ -72,16 +72,16 @@ def histories(
     ------
     CaseError, DataError : a mistake in the case, its files or the table of gauges; files in the way in the folder
     """
-    refuse(CaseError, _senseless(exponent))
+    refuse(CaseError, exponent_problems(exponent))
     case, table = given_case(case), given_path(gauges, "gauges")
     folder = None if into is None else given_path(into, "into")
     wanted = _wanted(case, given_names(events, "events"))
     if folder is not None:
-        refuse_foreign(folder, FILLED, force=force, inputs=[*_inputs(case), table])
+        refuse_foreign(folder, FILLED, force=force, inputs=[*case_files(case), table])
     stage("reading gauges and body")
     listed, warnings = read_gauges(table, strict=strict)
     body = read_body(case, strict=strict)
-    k = float(body.curves[case.curve.name].rule.law.slopes[0]) if exponent is None else float(exponent)
+    k, k_source = exponent_of(case, exponent)
     plan, _ = mission_plan(body, threads)
     with TemporaryDirectory(prefix="fatigue-gauges-") as scratch, threadpool_limits(limits=1, user_api="blas"):
         groups = weld_groups(body, Path(scratch) / "forces")
@@ -111,13 +111,14 @@ def histories(
         gauges=tuple(placed),
         events=tuple(event_table(placed, readings, passes, spectra, k)),
         exponent=k,
+        exponent_source=k_source,
         notes=tuple(_notes(case, plan, wanted)),
         warnings=tuple(warnings),
     )
     if folder is None:
         return found
     stage("writing tables and page")
-    return write_histories(folder, found, body, rows, readings, counts, spectra, [*_read_here(case), table], csv=csv)
+    return write_histories(folder, found, body, rows, readings, counts, spectra, input_hashes(case, [table]), csv=csv)
 
 
 def mission_covariance(loads: Sequence[EventLoad], plan: Plan) -> Floats:
@@ -148,25 +149,3 @@ def _notes(case: Case, plan: Plan, wanted: Sequence[int]) -> Iterator[str]:
         yield f"The stress factor of {few(factors)} is left out: it is an allowance, and on no strain that is measured."
     if plan.loops:
         yield "Cycles across events are not counted here: each event is counted by itself."
-
-
-def _inputs(case: Case) -> Iterator[Path]:
-    """Every file of the case: none of them is overwritten."""
-    yield from (case.path, *case.input_files().values())
-    yield from _own_files(case)
-
-
-def _read_here(case: Case) -> list[Path]:
-    """The files whose hashes are recorded: the case, its inputs, and those that only gauges read."""
-    return [path for path in dict.fromkeys(_inputs(case)) if path.is_file()]
-
-
-def _own_files(case: Case) -> Iterator[Path]:
-    names = [getattr(case.body, key) for key in GAUGE_FILES] + [load.gauge_forces for load in case.body.unit_load]
-    yield from (case.resolve(name) for name in names if name is not None)
-
-
-def _senseless(exponent: float | None) -> Iterator[Problem]:
-    if exponent is not None and not (isinstance(exponent, Real) and 0.0 < exponent < np.inf):
-        what = f"{exponent!r} is no exponent of an S-N curve"
-        yield Problem("bad_exponents", "exponent", what, "Give a number above 0, for instance 3.6")

@@ -22,7 +22,7 @@ class Histories:
     ----------
     title, table : of the case; name of the table of gauges
     gauges, events : rows of the tables of these names
-    exponent : k of the pseudo-damage
+    exponent, exponent_source : k of the pseudo-damage, and where it is from
     notes : what the numbers leave out
     warnings : doubts that a reader has to see
     written : files
@@ -33,6 +33,7 @@ class Histories:
     gauges: tuple[GaugeRow, ...]
     events: tuple[EventRow, ...]
     exponent: float
+    exponent_source: str
     notes: tuple[str, ...]
     warnings: tuple[Problem, ...]
     written: tuple[str, ...] = ()
@@ -59,6 +60,7 @@ class Histories:
             "title": self.title,
             "gauges_file": self.table,
             "exponent": self.exponent,
+            "exponent_source": self.exponent_source,
             "said": self.said(),
             "gauges": [_record(row) for row in self.gauges],
             "events": [_record(row) for row in self.events],

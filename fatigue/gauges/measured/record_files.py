@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, FatigueError, Problem, refuse
+from fatigue.files.hashes import told_apart
 from fatigue.gauges.measured.channel_file import ODOMETER, SPEED, Channel
 from fatigue.gauges.measured.distance import KM_H_OF, KM_OF, filled, of_odometer, of_speed
 from fatigue.gauges.measured.rate import LARGEST_FACTOR, exact_ratio
@@ -18,7 +19,6 @@ from fatigue.readers.neutral.history import uniform_step
 from fatigue.readers.neutral.tables import Table, open_table
 
 Floats = NDArray[np.float64]
-
 
 SPELLINGS = {
     "ue": ("1e-6", "µe", "µε", "um/m", "µm/m", "microstrain", "ustrain", "µstrain"),
@@ -38,19 +38,16 @@ class Record:
     Attributes
     ----------
     table : the file
+    name : by which it is told from the other records
     start, step : time of its first sample, and between samples [s]
     ratio : of the rate of the simulation to its own
     """
 
     table: Table
+    name: str
     start: float
     step: float
     ratio: Fraction
-
-    @property
-    def name(self) -> str:
-        """Name of the file."""
-        return self.table.path.name
 
     @property
     def samples(self) -> int:
@@ -92,9 +89,9 @@ def open_records(
         if path in paths[:i]
     ]
     found: list[Record] = []
-    for path in paths:
+    for path, name in zip(paths, told_apart(paths), strict=True):
         try:
-            found.append(_opened(path, channels, wanted_hz))
+            found.append(_opened(path, name, channels, wanted_hz))
         except FatigueError as error:
             problems += error.problems
     refuse(DataError, problems)
@@ -113,7 +110,7 @@ def _unit_problems(path: Path, channel: Channel) -> Iterator[Problem]:
         yield Problem("unit", f"{path.name}: column {channel.column}", what, remedy)
 
 
-def _opened(path: Path, channels: Collection[Channel], wanted_hz: float) -> Record:
+def _opened(path: Path, name: str, channels: Collection[Channel], wanted_hz: float) -> Record:
     table = open_table(path)
     columns = ("time_s", *dict.fromkeys(channel.column for channel in channels))
     table.expect(columns, table.position, strict=False)
@@ -126,8 +123,8 @@ def _opened(path: Path, channels: Collection[Channel], wanted_hz: float) -> Reco
         what = f"is sampled at {1.0 / step:.9g} Hz, and the simulation at {wanted_hz:.9g} Hz: no whole numbers up to "
         what += f"{LARGEST_FACTOR} are in this ratio, exactly enough for its {table.rows} samples"
         remedy = "Write it at a rate that has one, from its time stamps, behind an anti-aliasing filter"
-        raise DataError(Problem("no_exact_ratio", path.name, what, remedy))
-    return Record(table, float(time[0]), step, ratio)
+        raise DataError(Problem("no_exact_ratio", name, what, remedy))
+    return Record(table, name, float(time[0]), step, ratio)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -1,26 +1,11 @@
-"""What a comparison takes from the case: exponent, band, event and its distance."""
+"""What a comparison takes from the case: band, event and its distance."""
 
 import pytest
 
 from fatigue.case import load_case
 from fatigue.errors import CaseError, DataError
-from fatigue.gauges.correlated.asked import Asked, band_of, event_named, exponent_of, km_of_pass
+from fatigue.gauges.correlated.asked import Asked, band_of, event_named, km_of_pass
 from tests.small_case import small_case
-
-
-def test_the_exponent_is_that_of_the_curve_of_the_case(tmp_path):
-    """1/h of a master curve, the first slope of another one, or whatever is asked for."""
-    case = small_case()
-    assert exponent_of(Asked(), load_case(case.write(tmp_path / "master"))) == (
-        pytest.approx(1 / 0.27712),
-        "1/h of curve 'master-aluminium'",
-    )
-    case.curve = {"name": "mine", "survival": "mean"}
-    case.extra = "[curves.mine]\nslopes = [4.0, 6.0]\nknees_cycles = [1e7]\nrange_at_2e6_MPa = 40.0\n"
-    case.extra += 'applies = "structural"\nsource = "mine"'
-    own = load_case(case.write(tmp_path / "own"))
-    assert exponent_of(Asked(), own) == (4.0, "first slope of curve 'mine'")
-    assert exponent_of(Asked(exponent=3.0), own) == (3.0, "as asked")
 
 
 @pytest.mark.parametrize(

@@ -33,11 +33,12 @@ def made(tmp_path_factory):
     return measured_case(tmp_path_factory.mktemp("case"))
 
 
-def told(made, record, channels=None, **asked):
+def told(made, record, channels=None, into=None, **asked):
     """Compare one record; by default over the distance of a pass."""
     records = record if isinstance(record, list) else [record]
     asked = Asked(**({"km": KM * len(records)} | asked))
-    return correlate(made.case, made.gauges, channels or made.channels(), records, event=EVENT, asked=asked)
+    channels = channels or made.channels()
+    return correlate(made.case, made.gauges, channels, records, event=EVENT, into=into, asked=asked)
 
 
 def verdicts(found):
@@ -165,6 +166,32 @@ def test_a_clipped_channel_is_flagged_at_its_full_scale(made):
     clipped = int((np.abs(x[0]) >= 0.999 * full).sum())
     assert found.comparisons[0].said_flags.startswith(f"clipped {clipped}")
     assert "clipped" not in found.comparisons[1].said_flags
+
+
+def test_where_the_train_stands_nothing_is_had_per_km(made):
+    """Counted is only what was recorded at rest: no ratio, no figure of cycles per km, and a warning."""
+    x, speed = made.strain.copy(), np.zeros(made.strain.shape[1])
+    x[0, 500:530], speed[500:530] = np.nan, 100.0
+    channels = made.channels("stood", channel=["C1", "v"], gauge=["G1", "speed"], unit=["ue", "km/h"])
+    found = told(made, made.record(strain=x, v=speed), channels, km=None, into=made.folder / "stood")
+    assert verdicts(found) == ["data"]
+    assert np.isnan(list(found.comparisons[0].numbers.range_ratios.values())).all()
+    assert "no_distance" in [warning.code for warning in found.warnings]
+
+
+def test_two_records_of_one_name_are_told_apart(made):
+    """By their folders, among the hashes and the flagged places; the files of the case have hashes, too."""
+    x = made.strain.copy()
+    x[0, 100] = np.nan
+    paths = []
+    for day in ("monday", "tuesday"):
+        (made.folder / day).mkdir()
+        paths.append(made.record(f"{day}/ride", strain=x))
+    found = told(made, paths, into=made.folder / "two")
+    names = [path.as_posix() for path in paths]
+    assert [row.record for row in found.comparisons[0].flags] == names
+    inputs = json.loads((made.folder / "two" / "correlation.json").read_text("utf-8"))["inputs"]
+    assert {*names, "case.toml", "gauges.csv", "modes.csv"} <= inputs.keys()
 
 
 def test_a_long_gap_leaves_no_verdict(made):
@@ -346,7 +373,7 @@ def test_what_is_written(made, tmp_path):
         assert said in page
     said = json.loads((tmp_path / "a" / "correlation.json").read_text())
     assert said["verdicts"] == {"C1": "good", "C2": "poor", "C3": "good"}
-    assert said["inputs"].keys() == {"case.toml", "gauges.csv", "channels.csv", "written.parquet"}
+    assert {"case.toml", "modes.csv", "gauges.csv", "channels.csv", "written.parquet"} <= said["inputs"].keys()
     assert found.written[-1].endswith("correlation.json")
 
 
@@ -377,7 +404,7 @@ def test_files_of_somebody_else_and_inputs_are_not_overwritten(made, tmp_path):
     [
         ({"km": None}, DataError, "how far the records ran is not known"),
         ({"km": -1.0}, CaseError, "-1.0 is no finite number above 0"),
-        ({"exponent": math.inf}, CaseError, "inf is no finite number above 0"),
+        ({"exponent": math.inf}, CaseError, "inf is no exponent of an S-N curve"),
         ({"bridge": -1}, CaseError, "-1 samples are no gap"),
         ({"low_hz": 20.0}, DataError, "there is no common band: it would go from 20 to 18 Hz"),
         (

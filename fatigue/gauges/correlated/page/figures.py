@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from fatigue.gauges.correlated.compared import Comparison
 from fatigue.gauges.correlated.flag_rows import SpikeShown
+from fatigue.gauges.units import MICROSTRAIN
 from fatigue.report.figures.style import MISSED, QUIET, SERIES, Trace, axis, figure, log_axis, single
 from fatigue.shown import shortened, visible
 
@@ -27,15 +28,15 @@ def histories(one: Comparison) -> go.Figure | None:
     excerpts = one.drawn.excerpts
     if not excerpts:
         return None
-    data = [_line(e.side, e.time, e.strain, "%{x:.4g} s: %{y:.4g} ue") for e in excerpts]
+    data = [_line(e.side, e.time, e.strain, f"%{{x:.4g}} s: %{{y:.4g}} {MICROSTRAIN}") for e in excerpts]
     if one.alignment is not None:
         title = axis("time of the simulation [s]")
-        return figure(data, height=300, xaxis=title, yaxis=axis("strain in the band [ue]"))
+        return figure(data, height=300, xaxis=title, yaxis=axis(f"strain in the band [{MICROSTRAIN}]"))
     largest = 1.05 * max(float(np.nanmax(np.abs(e.strain))) for e in excerpts) or 1.0
     layout: dict[str, Trace] = {}
     for trace, name, domain in zip(data, ("", "2"), ([0.54, 1.0], [0.0, 0.46]), strict=False):
         trace.update(yaxis=f"y{name}", line=trace["line"] | {"dash": "solid"})
-        layout[f"yaxis{name}"] = axis("strain [ue]", domain=domain, range=[-largest, largest])
+        layout[f"yaxis{name}"] = axis(f"strain [{MICROSTRAIN}]", domain=domain, range=[-largest, largest])
     title = axis("time from the middle of the largest cycle [s]", anchor=data[-1]["yaxis"])
     return figure(data, height=420, xaxis=title, **layout)
 
@@ -44,13 +45,14 @@ def densities(one: Comparison) -> go.Figure:
     """Power spectral density of both sides."""
     drawn = one.drawn
     both = (("measured", drawn.measured_density), ("simulated", drawn.simulated_density))
-    data = [_line(side, drawn.frequency[1:], _above(y[1:]), "%{x:.4g} Hz: %{y:.4g} ue²/Hz") for side, y in both]
+    unit = f"({MICROSTRAIN})²/Hz"
+    data = [_line(side, drawn.frequency[1:], _above(y[1:]), f"%{{x:.4g}} Hz: %{{y:.4g}} {unit}") for side, y in both]
     low, high = _decades([y for _, y in both])
     return figure(
         data,
         height=320,
         xaxis=axis("frequency [Hz]"),
-        yaxis=log_axis("power spectral density [ue²/Hz]", low, high),
+        yaxis=log_axis(f"power spectral density [{unit}]", low, high),
     )
 
 
@@ -58,14 +60,14 @@ def exceedances(one: Comparison) -> go.Figure:
     """Ranges over how often they are reached in a km, both sides."""
     drawn = one.drawn
     both = (("measured", drawn.measured_reached), ("simulated", drawn.simulated_reached))
-    data = [_line(side, _above(n), drawn.level, "%{y:.4g} ue: %{x:.4g} per km") for side, n in both]
+    data = [_line(side, _above(n), drawn.level, f"%{{y:.4g}} {MICROSTRAIN}: %{{x:.4g}} per km") for side, n in both]
     low, high = _decades([n for _, n in both])
     top = 1.05 * float(drawn.level[-1])
     return figure(
         data,
         height=320,
         xaxis=log_axis("cycles per km that reach the range [1/km]", low, high),
-        yaxis=axis("strain range [ue]", range=[0.0, top]),
+        yaxis=axis(f"strain range [{MICROSTRAIN}]", range=[0.0, top]),
     )
 
 
@@ -84,7 +86,9 @@ def spike_samples(spikes: Sequence[SpikeShown]) -> go.Figure | None:
         across, down = _share(column, columns, 0.06), _share(rows - 1 - row, rows, 0.14)
         middle = float(spike.time[spike.marked].mean())
         layout[f"xaxis{name}"] = axis("", domain=across, anchor=f"y{name}", nticks=3)
-        layout[f"yaxis{name}"] = axis("raw [ue]" if column == 0 else "", domain=down, anchor=f"x{name}", nticks=4)
+        layout[f"yaxis{name}"] = axis(
+            f"raw [{MICROSTRAIN}]" if column == 0 else "", domain=down, anchor=f"x{name}", nticks=4
+        )
         data += [
             _samples(name, spike, np.ones_like(spike.marked), QUIET, "lines+markers"),
             _samples(name, spike, spike.marked, MISSED, "markers"),
@@ -118,6 +122,7 @@ def _line(side: str, x: Floats, y: Floats, hover: str) -> Trace:
 
 
 def _samples(panel: str, spike: SpikeShown, which: NDArray[np.bool_], colour: str, mode: str) -> Trace:
+    record = escape(shortened(visible(spike.record), 40))
     return {
         "type": "scatter",
         "mode": mode,
@@ -127,7 +132,7 @@ def _samples(panel: str, spike: SpikeShown, which: NDArray[np.bool_], colour: st
         "yaxis": f"y{panel}",
         "line": {"color": colour, "width": 1},
         "marker": {"color": colour, "size": 6 if mode == "markers" else 3},
-        "hovertemplate": f"%{{x:.4f}} s: %{{y:.5g}} ue<extra>{escape(shortened(visible(spike.record), 40))}</extra>",
+        "hovertemplate": f"%{{x:.4f}} s: %{{y:.5g}} {MICROSTRAIN}<extra>{record}</extra>",
     }
 
 

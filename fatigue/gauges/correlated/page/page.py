@@ -17,7 +17,9 @@ from fatigue.gauges.correlated.verdict import (
     SIGN,
     YARDSTICK,
 )
+from fatigue.gauges.units import MICROSTRAIN
 from fatigue.report.page_text import page_text
+from fatigue.report.rows_table import FILTERED_FROM, MOST_ROWS
 from fatigue.report.sections.cells import Cell, Heading, PageTable, integer, num, percent, text
 from fatigue.report.sections.embed import Figures, Shown
 
@@ -88,8 +90,8 @@ def _verdict_table(found: Correlation, ids: dict[int, str]) -> PageTable:
     if found.is_aligned:
         headings += [Heading("lag", "s"), Heading("correlation"), Heading("coherence")]
     headings += [Heading("kept"), Heading("outside band"), Heading("flags", numeric=False)]
-    rows = tuple(_verdict_row(one, ids.get(id(one), "")) for one in found.comparisons)
-    return PageTable("verdicts-table", tuple(headings), rows, "Find a gauge" if len(rows) >= 25 else "")
+    rows = tuple(_verdict_row(one, ids.get(id(one), "")) for one in found.comparisons[:MOST_ROWS])
+    return PageTable("verdicts-table", tuple(headings), rows, "Find a gauge" if len(rows) >= FILTERED_FROM else "")
 
 
 def _verdict_row(one: Comparison, link: str) -> tuple[Cell, ...]:
@@ -146,8 +148,9 @@ def _caption(gauge: str, is_aligned: bool) -> str:
 def _said(one: Comparison) -> str:
     """Sentence under the heading of a gauge."""
     numbers = one.numbers
-    said = f"Root mean square {numbers.rms_measured:.4g} ue measured, {numbers.rms_simulated:.4g} ue simulated; "
-    said += f"pseudo-damage per km {numbers.damage_measured:.4g} and {numbers.damage_simulated:.4g} ue^k; "
+    ue = MICROSTRAIN
+    said = f"Root mean square {numbers.rms_measured:.4g} {ue} measured, {numbers.rms_simulated:.4g} {ue} simulated; "
+    said += f"pseudo-damage per km {numbers.damage_measured:.4g} and {numbers.damage_simulated:.4g} ({ue})^k; "
     return said + f"{one.km:.4g} km counted, {one.km_lost:.3g} km lost to flagged samples."
 
 
@@ -168,8 +171,8 @@ def _flag_table(flags: Sequence[FlagRow], id_: str) -> PageTable:
         Heading("from", "s"),
         Heading("to", "s"),
         Heading("samples"),
-        Heading("value", "ue"),
-        Heading("from its neighbours", "ue"),
+        Heading("value", MICROSTRAIN),
+        Heading("from its neighbours", MICROSTRAIN),
         Heading("counted", numeric=False),
     )
     rows = tuple(

@@ -4,7 +4,7 @@ from fatigue.results.dictionary.column import Column
 
 _GAUGE = Column("gauge", "text", "-", "name of the gauge, as it is listed")
 _EVENT = Column("event", "text", "-", "event of the mission; (mission): all of them, where all were asked for")
-MICROSTRAIN = "1e-6"
+MICROSTRAIN = "ue"
 
 GAUGES = (
     _GAUGE,
@@ -59,9 +59,9 @@ GAUGE_EVENTS = (
     Column("cycles_per_pass", "float", "-", "rainflow cycles of a pass at the counted instants"),
     Column("largest_range_ue", "float", MICROSTRAIN, "largest range of these"),
     Column("exponent", "float", "-", "k of the pseudo-damage"),
-    Column("pseudo_damage_per_pass", "float", "1e-6^k", "sum n r^k of a pass"),
-    Column("pseudo_damage_per_km", "float", "1e-6^k/km", "per km of the event itself; empty of one counted by number"),
-    Column("pseudo_damage_per_mission_km", "float", "1e-6^k/km", "per km of the mission: passes_per_km times a pass"),
+    Column("pseudo_damage_per_pass", "float", "ue^k", "sum n r^k of a pass"),
+    Column("pseudo_damage_per_km", "float", "ue^k/km", "per km of the event itself; empty of one counted by number"),
+    Column("pseudo_damage_per_mission_km", "float", "ue^k/km", "per km of the mission: passes_per_km times a pass"),
     Column("equivalent_range_1_hz_ue", "float", MICROSTRAIN, "range that does the same at one cycle a second"),
 )
 
@@ -71,7 +71,7 @@ GAUGE_SPECTRUM = (
     Column("lower_ue", "float", MICROSTRAIN, "smallest strain range of the class"),
     Column("upper_ue", "float", MICROSTRAIN, "end of the class, which belongs to the next one, or to the last"),
     Column("count_per_km", "float", "1/km", "cycles per km of the mission: passes_per_km times those of one pass"),
-    Column("power_sum_per_km", "float", "1e-6^k/km", "sum n r^k of the ranges themselves, k: exponent"),
+    Column("power_sum_per_km", "float", "ue^k/km", "sum n r^k of the ranges themselves, k: exponent"),
     Column("exceedance_per_km", "float", "1/km", "cycles of lower_ue and more per km of the mission"),
 )
 
