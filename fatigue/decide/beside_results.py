@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from pathlib import Path
 
-from fatigue.errors import DataError, Problem, refuse
+from fatigue.errors import DataError, Problem
 from fatigue.files.recorded import ELSEWHERE
 
 
@@ -14,6 +14,6 @@ def refuse_results(folder: Path, results: Iterable[Path]) -> None:
     ------
     DataError : the folder is one of the results, however either is spelled
     """
-    what = "is one of the results that are read, which stay as they are"
-    same = (one for one in results if folder.exists() and one.exists() and folder.samefile(one))
-    refuse(DataError, (Problem("input_in_the_way", str(folder), what, ELSEWHERE) for _ in same))
+    if any(folder.exists() and one.exists() and folder.samefile(one) for one in results):
+        what = "is one of the results that are read, which stay as they are"
+        raise DataError(Problem("input_in_the_way", str(folder), what, ELSEWHERE))
