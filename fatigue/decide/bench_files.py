@@ -8,12 +8,12 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from fatigue.decide.of_result import FACES
 from fatigue.errors import DataError, Problem
 from fatigue.readers.neutral.tables import Table, open_table
 
 Floats = NDArray[np.float64]
 
-FACES = ("top", "bottom")
 _COORDINATE = re.compile(r"(u_[A-Za-z][A-Za-z0-9_]*|q_-?\d+)(?:\s*[\[(]\s*(.*?)\s*[\])])?")
 
 

@@ -1,7 +1,6 @@
 """Points of a finished result that a bench shall reproduce: their target damage, and what a unit of each load does."""
 
 import difflib
-import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -13,11 +12,12 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 from fatigue.decide.bench_files import WantedPoint
+from fatigue.decide.of_result import attachment_lengths, case_keys
 from fatigue.errors import DataError, Problem
 from fatigue.life.curves import DamageLaw
 from fatigue.life.recorded_curve import recorded_size
 from fatigue.life.rule import CycleRule
-from fatigue.results import read_rows, read_welds, rows_of_welds
+from fatigue.results import assessed, read_rows, read_welds, rows_of_welds
 from fatigue.results.tables import readable, table_path
 
 Floats = NDArray[np.float64]
@@ -87,15 +87,15 @@ def point_name(row: Any) -> str:
 
 def units_of_coordinates(record: Mapping[str, Any]) -> dict[str, str]:
     """Units of the coordinates of a result by their names: unit loads first; modes have none."""
-    body = tomllib.loads(record["case_text"].removeprefix("\ufeff"))["body"]
+    body = case_keys(record)["body"]
     units = {f"u_{load['name']}": str(load["unit"]) for load in body.get("unit_load", [])}
     return units | {f"q_{mode}": "" for mode in record["modes"]["used"]}
 
 
 def worst_wanted(folder: Path) -> tuple[WantedPoint, ...]:
     """The worst point of every weld, those that nothing damages left out."""
-    welds = read_welds(folder)
-    welds = welds[welds["status"].eq("assessed") & welds["utilisation"].gt(0.0)]
+    welds = assessed(read_welds(folder))
+    welds = welds[welds["utilisation"].gt(0.0)]
     return tuple(
         WantedPoint(
             weld=row.weld,
@@ -140,8 +140,7 @@ def points_of_result(folder: Path, record: Mapping[str, Any], wanted: Sequence[W
     key = nodes.loc[[row.Index for row in found]].reset_index(drop=True)
     curves, factor = tuple(curve_of[key["weld"]]), np.array([point.factor for point in wanted])
     recorded = {name: record["curves"][name] for name in dict.fromkeys(curves)}
-    length = welds.get("attachment_mm", pd.Series(np.nan, index=welds.index))  # no column in results of older versions
-    attachment = length[key["weld"]].fillna(np.inf).to_numpy(dtype=np.float64)
+    attachment = attachment_lengths(welds.loc[key["weld"]])
     return BenchPoints(
         key=key[["weld", "part", "node", "order", "surface"]],
         target=key["damage_per_km"].to_numpy() * record["mission"]["target_km"] * factor,

@@ -12,6 +12,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fatigue.case.load import parsed_case
+from fatigue.decide.of_result import case_text, shear_method
 from fatigue.decide.whatif.asked import TwoCases
 from fatigue.decide.whatif.change import Change, unchanged
 from fatigue.decide.whatif.curves import Curves, OneCurve, curves_of
@@ -78,11 +79,10 @@ def base_of(stored: Stored, folder: Path) -> Base:
     ------
     DataError : shear decides about its verdicts, whose sums are known at one load only; a curve is another one now
     """
-    method = stored.record["rules"].get("multiaxial", {}).get("method", "report")
-    if method != "report":
+    if method := shear_method(stored.record):
         what = f"verdicts rest on normal stress and shear (multiaxial method {method!r}), of which one sum is stored"
         raise DataError(Problem("backsolve_shear", str(folder), what, "Assess with method = 'report' for an answer"))
-    base = parsed_case(case_of(stored.record, folder), str(stored.record["case_text"]).removeprefix("\ufeff"))
+    base = parsed_case(case_of(stored.record, folder), case_text(stored.record))
     nothing = Differences((), ())
     curve_of_weld = dict(zip(stored.of_welds["weld"], stored.of_welds["curve"], strict=True))
     curves = curves_of(stored.record, folder, TwoCases(base, base), nothing, curve_of_weld)

@@ -21,8 +21,9 @@ from fatigue.decide.backsolve.page import PAGE, answers_page
 from fatigue.decide.backsolve.question import Question, question
 from fatigue.decide.backsolve.rows import AnswerRow, mileage_rows, share_rows, strength_rows
 from fatigue.decide.backsolve.summary import HELD, Answers
+from fatigue.decide.beside_results import refuse_results
 from fatigue.decide.whatif.stored import Stored, open_stored
-from fatigue.errors import DataError, Problem, given_path, refuse
+from fatigue.errors import Problem, given_path
 from fatigue.files.recorded import Filled, refuse_foreign
 from fatigue.results import upsampling_factors
 from fatigue.results.dictionary.decided.backsolve import BACKSOLVE
@@ -73,7 +74,7 @@ def backsolve(
     case_file = None if case_file is None else given_path(case_file, "case_file")
     place = None if into is None else given_path(into, "into")
     if place is not None:
-        refuse(DataError, _in_the_result(folder, place))
+        refuse_results(place, [folder])
         refuse_foreign(place, FILLED, force=force, inputs=[])
     stage("reading the result")
     stored = open_stored(folder, no_lock=no_lock)
@@ -141,12 +142,6 @@ def _affordable(base: Base) -> tuple[Rows, str]:
 def _plates(stored: Stored, rows: Rows) -> Plates:
     curves = stored.of_welds["curve"].to_numpy()[stored.weld[rows]]
     return Plates(stored.thickness[rows], stored.attachment[rows], tuple(map(str, curves)))
-
-
-def _in_the_result(folder: Path, into: Path) -> Iterator[Problem]:
-    if into.exists() and folder.exists() and into.samefile(folder):
-        what = "is the result itself, which a back-solve does not change"
-        yield Problem("input_in_the_way", str(into), what, "Give another folder with -o")
 
 
 def _doubts(stored: Stored, folder: Path) -> Iterator[Problem]:

@@ -11,7 +11,7 @@ from fatigue.decide.compare.pairs import WELD, Pair
 from fatigue.decide.compare.split import EVENT, LIMIT, MISSION, MODE, PER_PASS, SEQUENCE, UNIT_LOAD
 from fatigue.decide.compare.words import coordinate, mode_names
 from fatigue.report.figures.style import GRID, MISSED, QUIET, SERIES, Trace, axis, event_colours, figure, upright
-from fatigue.report.wording import in_figure, km
+from fatigue.report.wording import in_figure, life_km
 
 MOST_WELDS = 30  # drawn, those whose life changes most; the table has all
 MOST_CAUSED = 12  # welds whose causes are drawn
@@ -56,7 +56,7 @@ def _marks(letter: str, number: int, table: pd.DataFrame, welds: Sequence[str]) 
     shown = table[table["weld"].isin(welds)]
     colour, mark = SERIES[number % len(SERIES)], MARKS[number % len(MARKS)]
     facts = [
-        [in_figure(row.weld), f"{row.life_ratio:.3g}", km(row.life_km), km(row.other_life_km),
+        [in_figure(row.weld), f"{row.life_ratio:.3g}", life_km(row.life_km), life_km(row.other_life_km),
          {"lost": ", misses its target now", "gained": ", meets its target now"}.get(row.flip, "")]
         for row in shown.itertuples(index=False)
     ]  # fmt: skip

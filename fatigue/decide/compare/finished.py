@@ -1,6 +1,5 @@
 """Finished results as they are compared: what each says of its points, its welds and its mission."""
 
-import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,7 +9,9 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from fatigue.decide.of_result import FACES, case_keys, counted_points, damage_limits, loops_of
 from fatigue.errors import DataError, Problem
+from fatigue.report.of_record import weights_of
 from fatigue.results import assessed, finished_result, not_assessed, read_codes, read_rows, read_table, read_welds
 
 Floats = NDArray[np.float64]
@@ -62,7 +63,7 @@ class Points:
             "part": self.part[rows],
             "node": self.node[rows],
             "order": self.order[rows],
-            "surface": np.array(("top", "bottom"), object)[rows % 2],
+            "surface": np.array(FACES, object)[rows % 2],
         }
 
 
@@ -93,12 +94,12 @@ class Finished:
     @property
     def sequences(self) -> frozenset[str]:
         """Names of the sequences of events, which are no events."""
-        return frozenset(loop["name"] for loop in self.record["mission"].get("sequences", []))
+        return frozenset(loop["name"] for loop in loops_of(self.record))
 
     @property
     def case_keys(self) -> dict[str, Any]:
         """The case as it was assessed, its keys by their tables."""
-        return tomllib.loads(self.record["case_text"].removeprefix("\ufeff"))
+        return case_keys(self.record)
 
     @property
     def frequency_hz(self) -> dict[int, float]:
@@ -155,9 +156,6 @@ def _read(letter: str, folder: Path, *, no_lock: bool) -> Finished:
     points, every = _points(folder), read_welds(folder)
     welds = assessed(every).set_index("weld")
     out = not_assessed(every)
-    mission = record["mission"]
-    limit = welds["damage_limit"].reindex(points.names).astype(float).fillna(mission["damage_limit"])
-    passes = {event["event"]: float(event["passes_per_km"]) for event in mission["events"]}
     return Finished(
         letter=letter,
         folder=folder,
@@ -165,8 +163,8 @@ def _read(letter: str, folder: Path, *, no_lock: bool) -> Finished:
         points=points,
         welds=welds,
         left_out=dict(zip(out["weld"], out["reason"], strict=True)),
-        limit=limit.to_numpy(np.float64),
-        passes=passes | {loop["name"]: float(loop["runs_per_km"]) for loop in mission.get("sequences", [])},
+        limit=damage_limits(every, points.names, record),
+        passes=weights_of(record),
         is_diagnosed=is_diagnosed,
     )
 
@@ -175,9 +173,8 @@ def _points(folder: Path) -> Points:
     table = read_table(folder, "nodes", _NUMBERS)
     column = {name: table[name].to_numpy() for name in _NUMBERS}
     code, names = read_codes(folder, "nodes", "weld")
-    tier, tiers = read_codes(folder, "nodes", "screened")
     face, faces = read_codes(folder, "nodes", "surface")
-    if [faces[f] for f in np.unique(face[0::2])] + [faces[f] for f in np.unique(face[1::2])] != ["top", "bottom"]:
+    if [faces[f] for f in np.unique(face[0::2])] + [faces[f] for f in np.unique(face[1::2])] != list(FACES):
         what = "it does not have the top and the bottom face of every station in turn"
         raise DataError(Problem("damaged_result", str(folder / "nodes.parquet"), what, "Run the assessment again"))
     return Points(
@@ -190,5 +187,5 @@ def _points(folder: Path) -> Points:
         toe=column["toe"].astype(np.bool_),
         damage=column["damage_per_km"],
         life=column["life_km"],
-        screened=np.array([name not in ("", None) for name in [*tiers, ""]])[tier],
+        screened=~counted_points(folder),
     )

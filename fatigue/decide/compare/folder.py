@@ -1,6 +1,6 @@
 """The folder of a comparison: its tables, its page and its record, in place of those before and of nothing else."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 import pandas as pd
@@ -8,7 +8,6 @@ import pandas as pd
 from fatigue.decide.compare.finished import READ, Finished
 from fatigue.decide.compare.page import PAGE, compare_page
 from fatigue.decide.compare.summary import Comparison, match_rows, result_rows
-from fatigue.errors import Problem
 from fatigue.files.recorded import Filled
 from fatigue.results.dictionary.decided.compare import COMPARED
 from fatigue.results.plain_tables import fill, table_files
@@ -44,13 +43,6 @@ def tables_of(found: Comparison) -> dict[str, pd.DataFrame]:
         "compare_matches": pd.concat([match_rows(pair) for pair in found.pairs], ignore_index=True),
         "compare_differences": pd.DataFrame(differences, columns=[c.name for c in COMPARED["compare_differences"]]),
     }
-
-
-def a_result(folder: Path, results: Sequence[Path]) -> Iterator[Problem]:
-    """Refusal of a folder that is one of the results: what is compared stays as it is."""
-    for result in results:
-        if folder.resolve() == result.resolve():
-            yield Problem("output_is_input", str(folder), "is one of the results", "Give another folder with -o")
 
 
 def inputs_of(results: Sequence[Finished]) -> list[Path]:

@@ -11,7 +11,7 @@ from fatigue.decide.compare.said import gains, notes, sentences
 from fatigue.decide.compare.summary import Comparison, match_rows, result_rows
 from fatigue.report.page_text import page_text
 from fatigue.report.rows_table import MOST_ROWS, rows_table
-from fatigue.report.sections.cells import Cell, Heading, PageTable, num, text, verdict
+from fatigue.report.sections.cells import Cell, Heading, PageTable, life, num, text, verdict
 from fatigue.report.sections.embed import Figures
 from fatigue.results.dictionary.decided.compare import MATCHES, RESULTS
 
@@ -125,8 +125,8 @@ def _ranking(pair: Pair) -> PageTable:
     rows = [
         (
             text(row.weld if row.weld == row.other_weld else f"{row.weld} = {row.other_weld}"),
-            num(row.life_km),
-            num(row.other_life_km),
+            life(row.life_km),
+            life(row.other_life_km),
             _ratio(float(row.life_ratio), str(row.basis)),
             verdict(row.fulfilled),
             verdict(row.other_fulfilled),

@@ -9,6 +9,7 @@ import pandas as pd
 
 from fatigue.decide.compare.finished import Finished
 from fatigue.decide.compare.matched.welds import MatchedWelds
+from fatigue.decide.of_result import loops_of
 from fatigue.shown import few
 
 NOT_ON_RECORD = "not on record"
@@ -125,7 +126,7 @@ def _mission(a: Finished, b: Finished) -> _Found:
         if only := [name for name in mine if name not in there]:
             is_first = letter == a.letter
             yield f"events of {letter} only", few(only) if is_first else "–", "–" if is_first else few(only), "event"
-    loops = [{loop["name"]: loop for loop in mission.get("sequences", [])} for mission in (ours, theirs)]
+    loops = [{loop["name"]: loop for loop in loops_of(one.record)} for one in (a, b)]
     for name in dict.fromkeys([*loops[0], *loops[1]]):
         orders = [" > ".join(one[name]["order"]) if name in one else "–" for one in loops]
         if orders[0] != orders[1]:

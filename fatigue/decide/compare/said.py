@@ -9,7 +9,7 @@ from fatigue.decide.compare.pairs import GAINED, LOST, POINT, Pair
 from fatigue.decide.compare.ratios import EXACT
 from fatigue.decide.compare.split import MODE, UNIT_LOAD, WHOLE
 from fatigue.decide.compare.words import SAME, is_same, times
-from fatigue.report.wording import km, listed
+from fatigue.report.wording import life_km, listed
 from fatigue.shown import few, shortened
 
 
@@ -42,15 +42,15 @@ def sentences(pair: Pair) -> Iterator[str]:
     first, other = (side.sort_values("life_km").iloc[0] for side in (_shortest(pair, ""), _shortest(pair, "other_")))
     again = "the same weld" if first["weld"] == other["weld"] else shortened(str(other["name"]))
     yield (
-        f"The shortest life of all is {km(first['life_km'])} in A ({shortened(str(first['name']))}) and "
-        f"{km(other['life_km'])} in {b} ({again})."
+        f"The shortest life of all is {life_km(first['life_km'])} in A ({shortened(str(first['name']))}) and "
+        f"{life_km(other['life_km'])} in {b} ({again})."
     )
 
 
 def lasts(row: pd.Series, letter: str) -> str:
     """A weld and its lives in words."""
     said = f"{shortened(str(row['weld']))}, which lasts {times(float(row['life_ratio']))} as long in {letter}"
-    return f"{said} ({km(row['life_km'])}, then {km(row['other_life_km'])})"
+    return f"{said} ({life_km(row['life_km'])}, then {life_km(row['other_life_km'])})"
 
 
 def _count(welds: int) -> str:

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from fatigue.decide.compare.causes import added, log_ratio, split
 from fatigue.decide.compare.finished import Finished, Ints
+from fatigue.decide.of_result import FACES
 from fatigue.results import number_groups, read_codes
 
 Floats = NDArray[np.float64]
@@ -139,7 +140,7 @@ def _attributed(of: Finished, rows: Ints, events: list[str]) -> tuple[pd.DataFra
     points, once = of.points, np.unique(rows)
     known = pd.MultiIndex.from_arrays([points.weld[once], points.part[once], points.order[once], once % 2])
     _, loads = read_codes(of.folder, "attribution", "unit_load")
-    texts = {"weld": points.names, "surface": ("top", "bottom"), "event": events, "kind": _KINDS, "unit_load": loads}
+    texts = {"weld": points.names, "surface": FACES, "event": events, "kind": _KINDS, "unit_load": loads}
     found = []
     for group in number_groups(of.folder, "attribution", ["part", "order", "mode", "damage_per_km"], texts):
         wanted = group["kind"] >= 0

@@ -8,12 +8,13 @@ it: exact, with nothing left over. Nothing is counted again and nothing interpol
 from collections.abc import Sequence
 from pathlib import Path
 
+from fatigue.decide.beside_results import refuse_results
 from fatigue.decide.compare.finished import LETTERS, read_results
-from fatigue.decide.compare.folder import FILLED, a_result, inputs_of, write_compare
+from fatigue.decide.compare.folder import FILLED, inputs_of, write_compare
 from fatigue.decide.compare.matched.welds import WeldMap, match_welds, read_map
 from fatigue.decide.compare.pairs import pair_of
 from fatigue.decide.compare.summary import Comparison
-from fatigue.errors import CaseError, DataError, Problem, given_path, refuse
+from fatigue.errors import CaseError, Problem, given_path, refuse
 from fatigue.files.recorded import refuse_foreign
 from fatigue.stages import stage
 
@@ -50,7 +51,7 @@ def compare(
     folder = None if into is None else given_path(into, "into")
     map_file = None if weld_map is None else given_path(weld_map, "weld_map")
     if folder is not None:
-        refuse(DataError, a_result(folder, paths))
+        refuse_results(folder, paths)
     stage("reading results")
     results = read_results(paths, no_lock=no_lock)
     of_map = WeldMap() if map_file is None else read_map(map_file, results)

@@ -10,7 +10,7 @@ import pandas as pd
 from fatigue.decide.compare.finished import Finished
 from fatigue.decide.compare.pairs import Pair
 from fatigue.decide.compare.said import notes, sentences
-from fatigue.report.wording import km
+from fatigue.report.wording import life_km
 from fatigue.shown import shortened, visible
 
 WIDTH = 110
@@ -77,8 +77,8 @@ def _ranking(pair: Pair) -> str:
     rows = [
         (
             shortened(str(row.weld), 34),
-            km(row.life_km),
-            km(row.other_life_km),
+            life_km(row.life_km),
+            life_km(row.other_life_km),
             f"x {row.life_ratio:.3g}" + {"at_least": " or more", "at_most": " or less"}.get(row.basis, ""),
             {"lost": "MISSES NOW", "gained": "meets now", "": "" if row.fulfilled else "misses"}[row.flip],
             row.cause_event if row.why else "",

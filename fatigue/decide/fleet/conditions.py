@@ -10,13 +10,22 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fatigue.decide.fleet.fleet_file import Condition, Fleet
+from fatigue.decide.of_result import FACES, counted_points, damage_limits, events_and_loops
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.results import ASSESSED, finished_result, number_groups, read_codes, read_table, read_welds, row_count
+from fatigue.results import (
+    ASSESSED,
+    assessed,
+    finished_result,
+    number_groups,
+    read_codes,
+    read_table,
+    read_welds,
+    row_count,
+)
 from fatigue.shown import few, visible
 
 Floats = NDArray[np.float64]
 
-FACES = ("top", "bottom")
 SAME_MM = 1e-3  # distance up to which two points are one
 _RULES = ("thickness_rule", "extension", "knee_cycles", "mean_stress", "yield_MPa", "structural_stress", "weld_ends")
 _KEY = ["weld", "part", "order", "surface"]
@@ -24,13 +33,17 @@ _KEY = ["weld", "part", "order", "surface"]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Result:
-    """A result folder: as the fleet names it, where it is, its provenance, its welds, and its events by place."""
+    """A result folder: as the fleet names it, where it is, its provenance, and its assessed welds."""
 
     name: str
     folder: Path
     record: Mapping[str, Any]
     welds: pd.DataFrame
-    events: tuple[str, ...]
+
+    @property
+    def events(self) -> tuple[str, ...]:
+        """What a condition may be: its events, and what cycles across them add in a run of each loop."""
+        return events_and_loops(self.record)
 
     @property
     def where(self) -> str:
@@ -76,10 +89,7 @@ def read_results(fleet: Fleet, *, no_lock: bool) -> dict[str, Result]:
     for name in dict.fromkeys(condition.results for condition in fleet.condition):
         folder = fleet.resolve(name)
         record = finished_result(folder, ASSESSED, ("nodes", "damage", "welds"), no_lock=no_lock)
-        mission = record["mission"]
-        loops = [loop["name"] for loop in mission.get("sequences", [])]
-        events = (*(one["event"] for one in mission["events"]), *loops)
-        results[name] = Result(name, folder, record, read_welds(folder), events)
+        results[name] = Result(name, folder, record, assessed(read_welds(folder)))
     refuse(DataError, _unknown_events(fleet.condition, results))
     return results
 
@@ -112,8 +122,7 @@ def shared_points(fleet: Fleet, results: Mapping[str, Result]) -> Points:
         damage[:, c] = _damage(result, condition.event)[key.index.to_numpy()]
         is_bound[:, c] = key["screened"].to_numpy()
     number, names = pd.factorize(base["weld"].to_numpy())
-    limits = first.welds.set_index("weld")["damage_limit"]
-    limit = limits.fillna(first.record["mission"]["damage_limit"]).loc[list(names)].to_numpy(dtype=np.float64)
+    limit = damage_limits(first.welds, list(names), first.record)
     columns = ["weld", "part", "node", "order", "surface", "toe"]
     key = base.reset_index(drop=True)[columns]
     return Points(key, number.astype(np.int64), tuple(map(str, names)), limit, damage, is_bound)
@@ -125,10 +134,9 @@ def _sorted_points(result: Result, first: Result) -> pd.DataFrame:
     table = read_table(result.folder, "nodes", columns).to_pandas()
     weld, names = read_codes(result.folder, "nodes", "weld")
     face, faces = read_codes(result.folder, "nodes", "surface")
-    tier, tiers = read_codes(result.folder, "nodes", "screened")
     table["weld"] = pd.Categorical.from_codes(weld, names)
     table["surface"] = pd.Categorical.from_codes(face, faces)
-    table["screened"] = np.array([name != "" for name in [*tiers, ""]])[tier]
+    table["screened"] = ~counted_points(result.folder)
     known = {name: place for place, name in enumerate(_in_order(first))}
     place = np.array([known.get(name, len(known)) for name in names], np.int64)[weld]
     side = np.array([FACES.index(name) for name in faces], np.int64)[face]
@@ -159,7 +167,7 @@ def _damage(result: Result, event: str) -> Floats:
 
 def _other_rules(first: Result, other: Result) -> Iterator[Problem]:
     """Refusals of a result that another curve or rule made."""
-    welds = [one.welds[one.welds["status"] == "assessed"].set_index("weld") for one in (first, other)]
+    welds = [one.welds.set_index("weld") for one in (first, other)]
     for name, curve, limit in welds[1][["curve", "damage_limit"]].itertuples():
         if name not in welds[0].index:
             continue  # told with the points

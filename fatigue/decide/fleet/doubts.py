@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from fatigue.decide.fleet.conditions import Points, Result
 from fatigue.decide.fleet.distances import Distances
 from fatigue.decide.fleet.fleet_file import Fleet
+from fatigue.decide.of_result import loops_of, shear_method
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.shown import few, visible
 
@@ -30,8 +31,8 @@ def refuse_short_loops(fleet: Fleet, results: Mapping[str, Result], distances: D
 
 def _short_loops(fleet: Fleet, results: Mapping[str, Result], distances: Distances) -> Iterator[Problem]:
     for c, condition in enumerate(fleet.condition):
-        mission = results[condition.results].record["mission"]
-        loop = next((one for one in mission.get("sequences", []) if one["name"] == condition.event), None)
+        loops = loops_of(results[condition.results].record)
+        loop = next((one for one in loops if one["name"] == condition.event), None)
         if loop is None:
             continue
         for event in dict.fromkeys(loop["order"]):
@@ -75,7 +76,7 @@ def _of_result(fleet: Fleet, name: str, result: Result) -> Iterator[Problem]:
     """What the sums leave out of one result."""
     where = f"results {visible(name)!r}"
     used = {condition.event for condition in fleet.condition if condition.results == name}
-    loops = [loop for loop in result.record["mission"].get("sequences", []) if used.intersection(loop["order"])]
+    loops = [loop for loop in loops_of(result.record) if used.intersection(loop["order"])]
     absent = [loop["name"] for loop in loops if loop["name"] not in used]
     if absent:
         what = f"its cycles across events, {few(absent)}, are in no condition and in no sum"
@@ -85,8 +86,7 @@ def _of_result(fleet: Fleet, name: str, result: Result) -> Iterator[Problem]:
     ):
         what = "the order of its events is not known, and the bound of their cycles across events is in no sum"
         yield Problem("fleet_transitions", where, what, "See damage_per_km_transitions_bound of its points")
-    shear = result.record["rules"].get("multiaxial", {}).get("method", "report")
-    if shear != "report":
+    if shear := shear_method(result.record):
         what = f"its verdicts rest on normal stress and shear (multiaxial method {shear!r}); the sums are of normal "
         yield Problem("fleet_shear", where, f"{what}stress alone", "See utilisation of its points for shear")
     beside = result.welds["worst_check"].fillna("").ne("").sum()

@@ -7,7 +7,7 @@ import plotly.graph_objects as go
 
 from fatigue.decide.fleet.rows import PercentileRow, UnitRow, VarianceRow
 from fatigue.report.figures.style import ACCENT, INK, MISSED, QUIET, SERIES, Trace, axis, figure, log_axis, upright
-from fatigue.report.wording import in_figure, number
+from fatigue.report.wording import in_figure, life
 
 MOST_UNITS, MOST_WELDS = 40, 30  # drawn: those with the shortest lives
 LONGEST_YEARS = 1e4  # drawn; longer lives stand there
@@ -68,7 +68,7 @@ def spread(rows: Sequence[PercentileRow], target_years: float | None) -> go.Figu
                 "x": [of[name, p] for name in welds],
                 "y": list(range(len(welds))),
                 "marker": {"color": SERIES[i % len(SERIES)], "size": 9 if p == 50.0 else 7},
-                "hovertemplate": f"P{p:g}: %{{x:.4g}} years",
+                "hovertemplate": f"P{p:g}: %{{x:.3g}} years",
             }
         )
     lives = [of[name, p] for name in welds for p in percent]
@@ -109,17 +109,17 @@ def _bar(row: VarianceRow) -> str:
     return row.unit if row.of == "unit" else row.weld
 
 
-def _drawn(life: float) -> float:
-    return min(life, LONGEST_YEARS)
+def _drawn(years: float) -> float:
+    return min(years, LONGEST_YEARS)
 
 
 def _life(row: UnitRow) -> str:
-    told = LONGEST if row.life_years > LONGEST_YEARS else f"{number(row.life_years)} years"
+    told = LONGEST if row.life_years > LONGEST_YEARS else f"{life(row.life_years)} years"
     return f"at least {told}" if row.is_bound else told
 
 
 def _life_axis(lives: Sequence[float]) -> dict[str, object]:
-    known = np.log10([life for life in lives if life > 0.0])
+    known = np.log10([years for years in lives if years > 0.0])
     return log_axis("life [years]", np.floor(known.min() - 0.05), np.ceil(known.max() + 0.05))
 
 

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from fatigue.decide.fleet.rows import PercentileRow, UnitRow
 from fatigue.decide.fleet.summary import LONGEST_YEARS, years
 from fatigue.report.rows_table import FILTERED_FROM, MOST_ROWS
-from fatigue.report.sections.cells import Cell, Heading, PageTable, integer, num, percent, text, verdict
+from fatigue.report.sections.cells import Cell, Heading, PageTable, integer, life, num, percent, text, verdict
 
 
 def units_table(rows: Sequence[UnitRow]) -> PageTable:
@@ -22,9 +22,9 @@ def units_table(rows: Sequence[UnitRow]) -> PageTable:
     headings += [Heading("target", numeric=False)] if has_target else []
     cells = []
     for row in shown:
-        told = [integer(row.rank), text(row.unit), life(row.life_years, row.is_bound)]
-        told += [life(row.life_years_at_most, False)] if has_bound else []
-        told += [num(row.life_km), num(row.km_per_year), text(row.weld), text(row.surface), integer(row.node)]
+        told = [integer(row.rank), text(row.unit), lived(row.life_years, row.is_bound)]
+        told += [lived(row.life_years_at_most, False)] if has_bound else []
+        told += [life(row.life_km), num(row.km_per_year), text(row.weld), text(row.surface), integer(row.node)]
         told += [text(row.governing_condition), percent(row.governing_share)]
         told += [percent(row.damage_cv)] if has_error else []
         told += [verdict(row.fulfilled)] if has_target else []
@@ -40,7 +40,7 @@ def percentiles_table(rows: Sequence[PercentileRow]) -> PageTable:
     cells = tuple(
         (
             text(weld or "worst weld of each unit"),
-            *(life(of[weld, p].life_years, of[weld, p].units_with_bound > 0) for p in percents),
+            *(lived(of[weld, p].life_years, of[weld, p].units_with_bound > 0) for p in percents),
         )
         for weld in welds
     )
@@ -48,7 +48,7 @@ def percentiles_table(rows: Sequence[PercentileRow]) -> PageTable:
     return PageTable("fleet-percentiles-table", headings, cells, _label(len(cells), "Find a weld"))
 
 
-def life(value: float, is_bound: bool) -> Cell:
+def lived(value: float, is_bound: bool) -> Cell:
     """Cell with a life in years, at least this where a bound stands for the damage."""
     return Cell(years(value, is_bound, unit="").replace(">=", "≥"), min(value, LONGEST_YEARS))
 

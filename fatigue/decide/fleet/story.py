@@ -4,7 +4,6 @@ D[point, unit] = sum over the conditions of d[point, condition] km[unit, conditi
 condition is one event of one result. All results must have the same points, on the same curves.
 """
 
-from collections.abc import Iterator
 from contextlib import ExitStack
 from dataclasses import asdict, replace
 from pathlib import Path
@@ -12,6 +11,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from fatigue.decide.beside_results import refuse_results
 from fatigue.decide.fleet.conditions import Points, Result, read_results, shared_points
 from fatigue.decide.fleet.distances import Distances, correlation_matrix, read_distances
 from fatigue.decide.fleet.doubts import doubts, refuse_short_loops
@@ -21,7 +21,7 @@ from fatigue.decide.fleet.page import PAGE, fleet_page
 from fatigue.decide.fleet.rows import MOST_POINT_ROWS, percentile_rows, point_rows, unit_rows, variance_rows, weld_rows
 from fatigue.decide.fleet.summary import FleetFound
 from fatigue.decide.fleet.summed import Scatter, Summed, summed, variances
-from fatigue.errors import DataError, Problem, given_path, refuse
+from fatigue.errors import given_path
 from fatigue.files.hashes import sha256
 from fatigue.files.recorded import Filled, refuse_foreign
 from fatigue.report.wording import whole
@@ -59,7 +59,7 @@ def fleet(
     folder = None if into is None else given_path(into, "into")
     km = asked.resolve(asked.km)
     if folder is not None:
-        refuse(DataError, _in_a_result(asked, folder))
+        refuse_results(folder, [asked.resolve(one.results) for one in asked.condition])
         refuse_foreign(folder, FILLED, force=force, inputs=[asked.path, km])
     stage("reading %d conditions", len(asked.condition))
     results = read_results(asked, no_lock=no_lock)
@@ -97,15 +97,6 @@ def _summed_up(asked: Fleet, results: dict[str, Result], folder: Path | None, km
         written = _write(folder, asked, results, found, of, csv=csv)
         found = replace(found, written=tuple(str(folder / name) for name in written))
     return found
-
-
-def _in_a_result(asked: Fleet, folder: Path) -> Iterator[Problem]:
-    """Refusal of a folder of results as the one to write into: they stay as they are."""
-    for name in dict.fromkeys(one.results for one in asked.condition):
-        path = asked.resolve(name)
-        if folder.exists() and path.exists() and folder.samefile(path):
-            what = f"is the result {name!r}, which a fleet does not change"
-            yield Problem("input_in_the_way", str(folder), what, "Give another folder with -o")
 
 
 def _points_rule(points: Points, distances: Distances) -> str:

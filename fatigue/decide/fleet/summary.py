@@ -8,7 +8,7 @@ import numpy as np
 
 from fatigue.decide.fleet.rows import PercentileRow, UnitRow, VarianceRow
 from fatigue.errors import Problem
-from fatigue.report.wording import number, share, whole
+from fatigue.report.wording import life, number, share, whole
 from fatigue.shown import few, shortened, visible
 
 UNITS_TOLD, WELDS_TOLD, SHARES_TOLD = 20, 10, 4
@@ -161,11 +161,11 @@ def years(value: float, is_bound: bool, unit: str = " years") -> str:
     """A life in years: at least this where a bound stands for the damage.
 
     >>> years(12.345, False), years(np.inf, False, unit=""), years(40.0, True)
-    ('12.35 years', '> 1e6', '>= 40.00 years')
+    ('12.3 years', '> 1e6', '>= 40.0 years')
     """
     if value > LONGEST_YEARS or not np.isfinite(value):
         return f"> 1e6{unit}"
-    return f"{'>= ' if is_bound else ''}{number(value)}{unit}"
+    return f"{'>= ' if is_bound else ''}{life(value)}{unit}"
 
 
 def _table(heads: Sequence[str], rows: Sequence[Sequence[str]], right: Sequence[int]) -> Iterator[str]:

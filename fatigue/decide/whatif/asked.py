@@ -13,6 +13,7 @@ from typing import Any
 
 from fatigue.case import Case, load_case
 from fatigue.case.load import case_of_tables, parsed_case
+from fatigue.decide.of_result import case_text
 from fatigue.errors import CaseError, Problem, refuse
 from fatigue.files.dotted import NoSuchKey, put, value_at
 from fatigue.results import case_of
@@ -47,7 +48,7 @@ def two_cases(record: Mapping[str, Any], folder: Path, asked: Asked) -> TwoCases
     CaseError : nothing is asked, a setting is none, its key leads nowhere, or the case that it makes is wrong: shares
         that do not sum to 1, an unknown event
     """
-    path, text = case_of(record, folder), str(record["case_text"]).removeprefix("\ufeff")
+    path, text = case_of(record, folder), case_text(record)
     base = parsed_case(path, text)
     if asked.case_file is not None:
         refuse(CaseError, _beside_a_case(asked))

@@ -11,10 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.case import Case, Event, check_distance
+from fatigue.decide.of_result import events_and_loops, loops_of
 from fatigue.decide.whatif.asked import TwoCases
 from fatigue.decide.whatif.difference import Differences
 from fatigue.life.mission import Pass
 from fatigue.pipeline.mission.loops import plan_loops
+from fatigue.report.of_record import weights_of
 
 Floats = NDArray[np.float64]
 
@@ -70,19 +72,14 @@ class Change:
 
 def mission_of(record: Mapping[str, Any]) -> Mission:
     """The mission of a result."""
-    mission = record["mission"]
-    weights = [event["passes_per_km"] for event in mission["events"]]
-    runs = [loop["runs_per_km"] for loop in mission.get("sequences", ())]
-    return Mission(np.array([*weights, *runs]), mission["target_km"], mission["km_per_year"], mission["damage_limit"])
+    mission, weights = record["mission"], np.array(list(weights_of(record).values()))
+    return Mission(weights, mission["target_km"], mission["km_per_year"], mission["damage_limit"])
 
 
 def names_of(record: Mapping[str, Any]) -> tuple[tuple[str, ...], tuple[tuple[int, ...], ...]]:
     """Names of the events and of the loops behind them, and the numbers of the events of each loop."""
-    mission = record["mission"]
-    events = [event["event"] for event in mission["events"]]
-    sequences = mission.get("sequences", ())  # an older result has none
-    loops = tuple(tuple(events.index(name) for name in loop["order"]) for loop in sequences)
-    return (*events, *(loop["name"] for loop in sequences)), loops
+    names = events_and_loops(record)
+    return names, tuple(tuple(names.index(event) for event in loop["order"]) for loop in loops_of(record))
 
 
 def unchanged(record: Mapping[str, Any]) -> Change:

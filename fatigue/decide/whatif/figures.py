@@ -27,7 +27,7 @@ def lives_figure(welds: pd.DataFrame, target_km: float, target_km_before: float)
             "x": drawn_life(before),
             "y": y,
             "marker": {"color": "#ffffff", "size": 8, "line": {"width": 1.6, "color": QUIET}},
-            "hovertemplate": "%{x:.4g} km as assessed<extra></extra>",
+            "hovertemplate": "%{x:.3g} km as assessed<extra></extra>",
         }
     ]
     for verdict, colour in COLOUR.items():
@@ -47,7 +47,7 @@ def lives_figure(welds: pd.DataFrame, target_km: float, target_km_before: float)
                 "y": y[here],
                 "error_x": {"array": high - lives, "arrayminus": lives - low, "thickness": 1.4, "width": 4},
                 "marker": {"color": colour, "size": 8},
-                "hovertemplate": "%{x:.4g} km<extra></extra>",
+                "hovertemplate": "%{x:.3g} km<extra></extra>",
             }
         )
     names = [shortened(visible(weld), 28) for weld in shown["weld"]]

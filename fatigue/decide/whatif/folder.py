@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from dataclasses import asdict
 from pathlib import Path
 
+from fatigue.decide.beside_results import refuse_results
 from fatigue.decide.whatif.page import PAGE, whatif_page
 from fatigue.decide.whatif.summary import WhatIf
 from fatigue.files import recorded
@@ -23,6 +24,7 @@ def refuse_foreign(folder: Path, result: Path, case_file: Path | None, *, force:
     ------
     DataError : everything in the way
     """
+    refuse_results(folder, [result])
     recorded.refuse_foreign(folder, FILLED, force=force, inputs=list(_inputs(result, case_file)))
 
 

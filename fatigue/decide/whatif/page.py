@@ -6,9 +6,10 @@ from typing import Any
 from fatigue.decide.whatif.figures import lives_figure
 from fatigue.decide.whatif.forward import BASES
 from fatigue.decide.whatif.summary import WhatIf
+from fatigue.report import wording
 from fatigue.report.page_text import page_text
 from fatigue.report.rows_table import FILTERED_FROM, MOST_ROWS
-from fatigue.report.sections.cells import Cell, Heading, PageTable, num, span, text
+from fatigue.report.sections.cells import Cell, Heading, PageTable, life, num, span, text
 from fatigue.report.sections.embed import Figures
 
 PAGE = "whatif.html"
@@ -80,8 +81,8 @@ def _flips(found: WhatIf) -> PageTable | None:
             VERDICT[row.verdict_before],
             VERDICT[row.verdict],
             text(row.basis),
-            num(row.life_km_before),
-            num(row.life_km),
+            life(row.life_km_before),
+            life(row.life_km),
         )
         for row in found.flips.head(MOST_ROWS).itertuples()
     ]
@@ -95,9 +96,9 @@ def _weld_table(found: WhatIf) -> PageTable:
             VERDICT[row.verdict_before],
             VERDICT[row.verdict],
             text(row.basis),
-            num(row.life_km_before),
-            num(row.life_km),
-            span(row.life_km_low, row.life_km_high),
+            life(row.life_km_before),
+            life(row.life_km),
+            span(row.life_km_low, row.life_km_high, wording.life),
             num(row.life_ratio),
             num(row.utilisation),
             num(row.load_factor),

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
 from fatigue.case import Case
+from fatigue.decide.of_result import shear_method
 from fatigue.decide.whatif.asked import TwoCases
 from fatigue.decide.whatif.difference import Differences
 from fatigue.decide.whatif.forward import COUNTED, RECOUNT, Forward
@@ -17,7 +18,6 @@ from fatigue.decide.whatif.stored import Stored
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.pipeline.mission.events import event_loads
 from fatigue.pipeline.mission.plan import mission_plan
-from fatigue.pipeline.multiaxial.method import DECIDING
 from fatigue.pipeline.solve.body import read_body
 from fatigue.pipeline.solve.weld_groups import weld_groups
 from fatigue.results import changed_inputs, upsampling_factors
@@ -96,12 +96,6 @@ def _factors(record: Mapping[str, Any], case: Case, differs: Differences) -> lis
 
 
 def _of_shear(record: Mapping[str, Any]) -> Iterator[Problem]:
-    if shear_decides(record):
-        method = record["rules"]["multiaxial"]["method"]
+    if method := shear_method(record):
         what = f"shear decides by multiaxial.method = '{method}', and only normal stress is counted again here"
         yield Problem("recount_of_shear", "--recount", what, "Assess the changed case with `fatigue assess`")
-
-
-def shear_decides(record: Mapping[str, Any]) -> bool:
-    """Whether a damage sum of shear may decide about the life of a point."""
-    return record["rules"].get("multiaxial", {}).get("method") in DECIDING

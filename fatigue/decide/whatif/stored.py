@@ -12,11 +12,12 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from fatigue.decide.whatif.change import names_of
+from fatigue.decide.of_result import FACES, attachment_lengths, counted_points, events_and_loops
 from fatigue.errors import DataError, Problem
 from fatigue.life.bounds.histogram import Classes
 from fatigue.results import (
     ASSESSED,
+    assessed,
     finished_result,
     number_groups,
     read_codes,
@@ -113,18 +114,14 @@ def open_stored(folder: Path, *, no_lock: bool = False) -> Stored:
     DataError : no finished result in the folder, a table is damaged, or its rows are not point by point
     """
     record = finished_result(folder, ASSESSED, READ, no_lock=no_lock)
-    names, _ = names_of(record)
+    names = events_and_loops(record)
     weld, welds = read_codes(folder, "nodes", "weld")
-    tier, tiers = read_codes(folder, "nodes", "screened")
     nodes = read_table(folder, "nodes", ["toe", "damage_per_km", "thickness_mm"])
     column = read_table(folder, "damage", ["damage_per_pass"])["damage_per_pass"].to_numpy()
     if len(column) != len(weld) * len(names) or not _in_order(folder, names):
         what = "its rows are not event by event as those of nodes.parquet are point by point"
         raise DataError(Problem("other_points", str(table_path(folder, "damage")), what, "Run the assessment again"))
-    table = read_welds(folder)
-    of_welds = table[table["status"] == "assessed"].set_index("weld").loc[welds].reset_index()
-    attachment = of_welds["attachment_mm"].to_numpy(dtype=np.float64, na_value=np.nan)
-    counted = np.array([name == "" for name in [*tiers, ""]])[tier]
+    of_welds = assessed(read_welds(folder)).set_index("weld").loc[welds].reset_index()
     return Stored(
         folder=folder,
         record=record,
@@ -132,11 +129,11 @@ def open_stored(folder: Path, *, no_lock: bool = False) -> Stored:
         welds=tuple(welds),
         weld=weld,
         toe=nodes["toe"].to_numpy(),
-        counted=counted,
+        counted=counted_points(folder),
         damage_per_km=nodes["damage_per_km"].to_numpy(),
         per_pass=column.reshape(len(weld), len(names)),
         thickness=nodes["thickness_mm"].to_numpy(),
-        attachment=np.where(np.isnan(attachment), np.inf, attachment)[weld],
+        attachment=attachment_lengths(of_welds)[weld],
         of_welds=of_welds,
     )
 
@@ -159,7 +156,7 @@ def stored_ranges(stored: Stored, kind: Kind) -> StoredRanges:
         return StoredRanges(Classes(*(np.zeros(0, np.intp),) * 2, *(np.zeros(0),) * 3), np.zeros(0, np.intp))
     refuse_mixed(stored.folder, stored.record, ("histogram",), ("histogram",))
     numbers = ("part", "order", "bin", "count_per_pass", "power_sum_per_pass")
-    texts = {"kind": (kind,), "weld": stored.welds, "event": stored.names, "surface": ("top", "bottom")}
+    texts = {"kind": (kind,), "weld": stored.welds, "event": stored.names, "surface": FACES}
     groups = number_groups(stored.folder, "histogram", numbers, texts)
     parts = [{name: of[name][of["kind"] == 0] for name in (*numbers, *texts)} for of in groups]
     rows = {name: np.concatenate([part[name] for part in parts]) for name in (*numbers, *texts)}

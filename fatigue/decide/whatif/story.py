@@ -13,13 +13,14 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from fatigue.decide.of_result import shear_method
 from fatigue.decide.whatif.asked import Asked, TwoCases, two_cases
 from fatigue.decide.whatif.change import Change, change_of, in_words
 from fatigue.decide.whatif.curves import Curves, curves_of
 from fatigue.decide.whatif.difference import Differences, differences
 from fatigue.decide.whatif.forward import BASES, RECOUNT, Forward, Ranges, forward
 from fatigue.decide.whatif.margin import load_factors
-from fatigue.decide.whatif.recounted import Which, count_again, rows_to_count, shear_decides
+from fatigue.decide.whatif.recounted import Which, count_again, rows_to_count
 from fatigue.decide.whatif.stored import Kind, Stored, StoredRanges, open_stored, stored_ranges
 from fatigue.decide.whatif.summary import WhatIf
 from fatigue.decide.whatif.verdicts import weld_table
@@ -93,7 +94,7 @@ class Question:
 
     def forward(self, stored: Stored, ranges: Ranges) -> Forward:
         """Damage of every point."""
-        decided_by_shear = shear_decides(stored.record)
+        decided_by_shear = bool(shear_method(stored.record))
         return forward(stored, self.change, self.curves, ranges, decided_by_shear=decided_by_shear)
 
 

@@ -10,7 +10,7 @@ import pandas as pd
 from fatigue.decide.whatif.forward import BASES
 from fatigue.decide.whatif.verdicts import MISSES, NOT_PROVEN
 from fatigue.errors import Problem
-from fatigue.report.wording import number
+from fatigue.report.wording import life
 from fatigue.shown import shortened, visible
 
 MOST_TOLD = 40  # welds in the text
@@ -108,10 +108,10 @@ class WhatIf:
         lives = f"{'before [km]':>12}{'life [km]':>12}  {'from .. to':>22}  {'ratio':>6}"
         yield f"  {'weld':{NAME}}{lives}  {'verdict':12}basis"
         for row in self.welds.head(MOST_TOLD).itertuples():
-            band = f"{number(row.life_km_low)} .. {number(row.life_km_high)}"
+            band = f"{life(row.life_km_low)} .. {life(row.life_km_high)}"
             band = "" if row.life_km_low == row.life_km_high else band
             name = shortened(visible(row.weld), NAME - 1)
-            line = f"  {name:{NAME}}{number(row.life_km_before):>12}{number(row.life_km):>12}  {band:>22}  "
+            line = f"  {name:{NAME}}{life(row.life_km_before):>12}{life(row.life_km):>12}  {band:>22}  "
             yield f"{line}{_three(row.life_ratio):>6}  {_words(row.verdict):12}{row.basis}"
         if (more := len(self.welds) - MOST_TOLD) > 0:
             yield f"  and {more} more, which do not miss their target or are further from it"

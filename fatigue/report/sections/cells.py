@@ -1,6 +1,6 @@
 """How a table of the page is written: headings with their units, what a cell says and the value it is sorted by."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -83,7 +83,7 @@ def linked(weld: str, links: Mapping[str, str]) -> Cell:
     return Cell(shortened(weld, LONGEST_TEXT, "…"), link=links.get(weld, ""))
 
 
-def span(low: float, high: float) -> Cell:
+def span(low: float, high: float, written: Callable[[Any], str] = number) -> Cell:
     """Cell with the range of a quantity, sorted by its lower end; one number where both ends are equal."""
-    both = number(low) if low == high or pd.isna(low) else f"{number(low)} to {number(high)}"
+    both = written(low) if low == high or pd.isna(low) else f"{written(low)} to {written(high)}"
     return Cell(both, num(low).value)

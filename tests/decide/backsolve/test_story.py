@@ -344,7 +344,7 @@ def test_cut_off(tmp_path):
 
 def test_refusals(result, tmp_path):
     """Shear that decides, inputs that are gone, a folder that is the result."""
-    with pytest.raises(DataError, match="which a back-solve does not change"):
+    with pytest.raises(DataError, match="is one of the results that are read"):
         backsolve(result, "load", into=result)
     case = short()
     case.extra += '[multiaxial]\nmethod = "range"\n'

@@ -273,7 +273,7 @@ def test_folders_that_are_not_ours(folder, tmp_path):
     """Neither a result nor somebody else's file is written over."""
     sound = copied(folder, tmp_path) / "out" / "sound"
     path = two(tmp_path, sound, sound)
-    with pytest.raises(DataError, match="which a fleet does not change"):
+    with pytest.raises(DataError, match="is one of the results that are read"):
         fleet(path, into=sound)
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "fleet.html").write_text("mine")
