@@ -1,7 +1,8 @@
 """What went wrong, as data: every refusal and every warning names place, value and remedy."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from numbers import Integral
 from os import PathLike, fsencode, fspath
 from pathlib import Path
 from typing import ClassVar
@@ -65,6 +66,12 @@ def refuse(error: type[FatigueError], problems: Iterable[Problem]) -> None:
     """Raise ``error`` with all ``problems`` if there are any."""
     if found := tuple(problems):
         raise error(*found)
+
+
+def no_threads(threads: object) -> Iterator[Problem]:
+    """Refusal of what is no number of threads; None is one for each processor core."""
+    if threads is not None and not (isinstance(threads, Integral) and threads >= 1):
+        yield Problem("bad_threads", "threads", f"{threads!r} is no number of threads", "Give 1 or more")
 
 
 def given_path(given: Path | str, argument: str) -> Path:

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.errors import CaseError, Problem, given_path, refuse
+from fatigue.errors import CaseError, Problem, given_path, no_threads, refuse
 from fatigue.files.hashes import sha256
 from fatigue.life.mission import Plan
 from fatigue.load_spectra.classes import MOST_CLASSES, Classes, Extent, check_edges, classes_over, outside_warnings
@@ -216,8 +216,7 @@ def _senseless(
         yield Problem("compare_km", "compare_km", what, "Give it in km")
     if compare_km is not None and not (isinstance(compare_km, Real) and 0.0 < compare_km < np.inf):
         yield Problem("compare_km", "compare_km", f"{compare_km!r} km is no distance", "Give a distance above 0")
-    if threads is not None and not (isinstance(threads, Integral) and threads >= 1):
-        yield Problem("bad_threads", "threads", f"{threads!r} is no number of threads", "Give 1 or more")
+    yield from no_threads(threads)
 
 
 def _are_exponents(exponents: Sequence[float]) -> bool:

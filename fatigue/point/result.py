@@ -30,7 +30,7 @@ from fatigue.point.history import (
 )
 from fatigue.point.reopened import Reopened, reopened
 from fatigue.report.of_record import target_of
-from fatigue.report.wording import NOT_AVAILABLE, km, number
+from fatigue.report.wording import NOT_AVAILABLE, km, life, number
 from fatigue.results import (
     ASSESSED,
     TABLES,
@@ -351,8 +351,8 @@ def _row_html(weld: Mapping[str, Any]) -> str:
     event = weld["governing_event"]
     cells = (
         (visible(weld["weld"]), "left"),
-        (number(float(f"{weld['life_km']:.3g}")), "right"),  # a life has no more digits than that
-        (f"{weld['utilisation']:.3g}", "right"),
+        (life(weld["life_km"]), "right"),
+        (number(weld["utilisation"]), "right"),
         (f"part {part}, order {order}, node {node}, {surface}", "left"),
         (NOT_AVAILABLE if pd.isna(event) else visible(event), "left"),
         ("meets" if weld["fulfilled"] else "misses", "left"),

@@ -29,10 +29,10 @@ from fatigue.point.history import (
     reads_vertices,
     refuse_unknown_instants,
 )
+from fatigue.point.in_the_way import in_the_way
 from fatigue.point.reopened import Reopened, event_numbers, reopened
 from fatigue.point.summary import EventExtent, WrittenHistory
-from fatigue.results import ASSESSED, case_of, coded, finished_result
-from fatigue.results.folder import DERIVED, RECORDS
+from fatigue.results import ASSESSED, coded, finished_result
 from fatigue.stages import stage
 
 Floats = NDArray[np.float64]
@@ -122,25 +122,6 @@ def format_of(output: Path) -> Write:
     if ending in (".xlsx", ".xls", ".txt", ".tsv"):
         remedy = "End it in .csv, which Excel opens, or in .parquet or .mat"
     raise CaseError(Problem("unknown_format", str(output), what, remedy))
-
-
-def in_the_way(
-    output: Path, folder: Path, record: Mapping[str, Any], case_file: Path | None, *, force: bool
-) -> Iterator[Problem]:
-    """Refusal of a file that may not be written over: without ``force`` any, inputs and tables of the result always."""
-    case = case_of(record, folder) if case_file is None else case_file
-    inputs = [case, *(case.parent / str(one["file"]) for one in record["inputs"])]
-    elsewhere = "Give another file with -o"
-    if output.is_dir():
-        yield Problem("not_a_file", str(output), "is a folder, not a file", elsewhere)
-    elif output.name in (*DERIVED, *RECORDS) and output.absolute().parent == folder.absolute():
-        yield Problem("foreign_file", str(output), "is the place of a file of the result", elsewhere)
-    elif not output.exists():
-        return
-    elif any(one.exists() and one.samefile(output) for one in inputs):
-        yield Problem("input_in_the_way", str(output), "is an input of this result", elsewhere)
-    elif not force:
-        yield Problem("foreign_file", str(output), "is there already", f"{elsewhere}, or --force to overwrite it")
 
 
 def _samples(inputs: Reopened, event: str | None, instants: Instants) -> int:

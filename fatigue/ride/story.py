@@ -7,14 +7,13 @@ damage lies in the hot stretches.
 """
 
 import logging
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import asdict
-from numbers import Integral
 from pathlib import Path
 from typing import Any
 
 from fatigue.case import Case
-from fatigue.errors import CaseError, DataError, Problem, given_path, refuse
+from fatigue.errors import CaseError, DataError, Problem, given_path, no_threads, refuse
 from fatigue.files.hashes import sha256
 from fatigue.life.mission import Plan
 from fatigue.pipeline.mission.event_load import EventLoad
@@ -69,7 +68,7 @@ def ride(
     DataError : no finished result in the folder, its inputs are gone or have changed, or a channel cannot be had
     CaseError : the case has no channels, or rules that make no sense
     """
-    refuse(CaseError, _senseless(threads))
+    refuse(CaseError, no_threads(threads))
     folder = given_path(folder, "folder")
     case_file = None if case_file is None else given_path(case_file, "case_file")
     stage("reading the result and its case")
@@ -184,8 +183,3 @@ def _said(case: Case, channels: Sequence[ChannelRecord], points: str, warnings: 
         "vibration_table": None if table is None else {"file": table, "sha256": sha256(case.resolve(table))},
         "warnings": [asdict(problem) for problem in warnings],
     }
-
-
-def _senseless(threads: int | None) -> Iterator[Problem]:
-    if threads is not None and not (isinstance(threads, Integral) and threads >= 1):
-        yield Problem("bad_threads", "threads", f"{threads!r} is no number of threads", "Give 1 or more")

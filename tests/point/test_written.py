@@ -171,6 +171,7 @@ def test_a_file_in_the_way(tmp_path):
         (sine, "is an input of this result"),
         (folder / "nodes.parquet", "is the place of a file of the result"),
         (folder / "signals.parquet", "is the place of a file of the result"),
+        (folder / ".." / "result" / "nodes.parquet", "is the place of a file of the result"),
     ):
         with pytest.raises(DataError, match=words):
             write_history(folder, "A", path, force=True)

@@ -3,6 +3,8 @@
 A curve of another strength has its knees at the same numbers of cycles: it is the same curve on ranges over one
 factor. So the damage at each strength is that of the histogram under a load factor. Each class stands for its range
 ``(sum n x^k / sum n)^(1/k)``, exact on the first slope; the ratio of two such sums is taken to the life that was found.
+Where the cut-off is inside the highest class this mean may lie beneath it, though the cycles above it have done all of
+the damage: then it is taken just above, as a life that is finite on the law has to be.
 """
 
 import numpy as np
@@ -12,9 +14,11 @@ from fatigue.life.curves import DamageLaw
 
 Floats = NDArray[np.float64]
 
+_ABOVE = 1.0 + 1e-9  # a cut-off, on whichever side of it rounding leaves the curve
+
 
 def log_life_factors(count: Floats, power_sum: Floats, law: DamageLaw, range_factor: Floats) -> Floats:
-    """Ln of the life at other strengths over the life on the law itself, (z,); +inf where nothing damages.
+    """Ln of the life at other strengths over the finite one on the law itself, (z,); +inf where nothing damages.
 
     Parameters
     ----------
@@ -23,6 +27,7 @@ def log_life_factors(count: Floats, power_sum: Floats, law: DamageLaw, range_fac
     """
     used = (count > 0.0) & (power_sum > 0.0)
     n, x = count[used], (power_sum[used] / count[used]) ** (1.0 / law.slopes[0])
+    x[-1:] = np.maximum(x[-1:], law.cutoff * _ABOVE)
     damage = _damages(n, x, law, np.append(range_factor, 1.0))
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.where(damage[:-1] > 0.0, np.log(damage[-1]) - np.log(damage[:-1]), np.inf)

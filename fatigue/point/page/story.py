@@ -7,23 +7,22 @@ count, a face without toe, the node that a reviewer asks for. Nothing is written
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
-from numbers import Integral
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from threadpoolctl import threadpool_limits
 
-from fatigue.errors import CaseError, DataError, Problem, given_path, refuse
+from fatigue.errors import CaseError, DataError, Problem, given_path, no_threads, refuse
 from fatigue.files.whole import replacing, staged
 from fatigue.pipeline.mission.events import event_loads
 from fatigue.pipeline.mission.plan import mission_plan
 from fatigue.point.found import find_station
+from fatigue.point.in_the_way import in_the_way
 from fatigue.point.page.gathered import Gathered, gather
 from fatigue.point.page.page import point_page
 from fatigue.point.page.picture import draw_picture
 from fatigue.point.page.summary import PointSummary, summary_of
 from fatigue.point.reopened import event_numbers, reopened
-from fatigue.point.written import in_the_way
 from fatigue.report.files.browser import find_browser
 from fatigue.report.files.png import INSTEAD
 from fatigue.report.inputs import find_inputs
@@ -73,7 +72,7 @@ def point(
     folder = given_path(folder, "folder")
     file = None if output is None else given_path(output, "output")
     named = None if case_file is None else given_path(case_file, "case_file")
-    refuse(CaseError, [*_senseless(order=order, node=node, part=part, threads=threads), *_no_format(file)])
+    refuse(CaseError, [*no_threads(threads), *_no_format(file)])
     stage("reading the result and its case")
     record = finished_result(folder, READ, READ, no_lock=no_lock)
     station = find_station(folder, weld, order=order, node=node, part=part)
@@ -125,11 +124,3 @@ def _no_format(file: Path | None) -> Iterator[Problem]:
         if file.suffix.lower() == ".pdf":
             remedy = "Write .html, and print it from any browser"
         yield Problem("unknown_format", str(file), f"the page of a point {ending}", remedy)
-
-
-def _senseless(**numbers: int | None) -> Iterator[Problem]:
-    for name, value in numbers.items():
-        if value is not None and (not isinstance(value, Integral) or isinstance(value, bool)):
-            yield Problem("argument", name, f"{value!r} is no whole number", "Give a whole number")
-        elif name == "threads" and value is not None and value < 1:
-            yield Problem("bad_threads", name, f"{value!r} is no number of threads", "Give 1 or more")

@@ -8,12 +8,11 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import asdict, replace
 from difflib import get_close_matches
 from fnmatch import fnmatchcase
-from numbers import Integral
 from pathlib import Path
 
 from threadpoolctl import threadpool_limits
 
-from fatigue.errors import CaseError, DataError, Problem, given_names, given_path, refuse
+from fatigue.errors import CaseError, DataError, Problem, given_names, given_path, no_threads, refuse
 from fatigue.files.hashes import sha256
 from fatigue.files.naming import missing_file
 from fatigue.results.dictionary.claims import CLAIMED
@@ -71,7 +70,7 @@ def run_study(
     CaseError, DataError : every mistake of the study and its files; files in the way in the folder. A run that fails
         later is told in what is returned
     """
-    refuse(CaseError, _no_threads(threads))
+    refuse(CaseError, no_threads(threads))
     study = study if isinstance(study, Study) else load_study(study)
     folder = given_path(folder, "folder")
     stage("trying every variant of the study")
@@ -222,8 +221,3 @@ def _missing_files(runs: Sequence[PlannedRun]) -> Iterator[Problem]:
             if path not in seen and not path.is_file():
                 yield missing_file(path, f"{case.path.name}: {key}", base=case.path.parent)
             seen.add(path)
-
-
-def _no_threads(threads: int | None) -> Iterator[Problem]:
-    if threads is not None and not (isinstance(threads, Integral) and threads >= 1):
-        yield Problem("bad_threads", "threads", f"{threads!r} is no number of threads", "Give 1 or more")

@@ -127,3 +127,17 @@ def test_a_curve_that_no_cycle_damages_at_some_strength_lets_these_live_for_ever
     last = STRENGTHS[np.isfinite(log_life)][-1]
     assert life_of_strengths(log_life, 0.2, 1.0 - float(ndtr(last - 0.5))) < np.inf
     assert -2.0 < last < float(-ndtri(0.9))
+
+
+def test_a_cut_off_inside_the_highest_class_leaves_the_headline_life():
+    """A cut-off inside the highest class leaves the headline life."""
+    curve = of_user((5.0,), (1e8,))
+    law, of = damage_law(curve, "mean-2sigma", "none", 1e7), strength_scatter(curve, "mean-2sigma")
+    x = law.cutoff * np.array([0.985, 0.985, 1.005])  # only the last one damages, and their mean would not
+    assert np.mean(x**5.0) ** 0.2 < law.cutoff
+    log_life = np.log(1e6) + log_life_factors(
+        np.array([3.0]), np.array([np.sum(x**5.0)]), law, of.range_factor(STRENGTHS)
+    )
+    assert life_of_strengths(log_life, 0.0, float(ndtr(2.0))) == pytest.approx(1e6, rel=1e-6)
+    assert life_of_strengths(log_life, 0.0, 0.99) < 1e6
+    assert life_of_strengths(log_life, 0.3, 0.99) < 1e6

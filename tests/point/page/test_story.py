@@ -268,7 +268,7 @@ def test_record_for_machines(results):
         ({"node": 1}, DataError, "has no node 1"),
         ({"surface": "left"}, DataError, "there is no face 'left'"),
         ({"event": "sine 2"}, DataError, "the mission has no event 'sine 2'. Name 'sine'"),
-        ({"order": 2.5}, CaseError, "order: 2.5 is no whole number"),
+        ({"order": 2.5}, CaseError, "order: 2.5 is no order. Give a whole number"),
         ({"threads": 0}, CaseError, "threads: 0 is no number of threads"),
         ({"output": "page.pdf"}, CaseError, "Write .html, and print it from any browser"),
         ({"output": "page"}, CaseError, "has a name without ending. End it in .html for the page or in .png"),
