@@ -482,7 +482,7 @@ def test_a_bad_case_leaves_nothing_behind(tmp_path):
 @pytest.mark.skipif(os.name == "nt", reason="SIGKILL is not a thing there")
 def test_killed_between_any_two_groups(tmp_path):
     """SIGKILL as soon as one, then three parts are there: the last run reuses them and ends with the same bytes."""
-    case = small_case(seconds=200.0, pairs=16)
+    case = small_case(seconds=80.0, pairs=16)
     path = case.write(tmp_path / "case")
     assess(load_case(path), tmp_path / "undisturbed", threads=1)
     command = [

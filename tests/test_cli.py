@@ -204,7 +204,7 @@ def test_show_only_one_weld(tmp_path):
 @pytest.mark.skipif(os.name == "nt", reason="Windows has other signals")
 def test_ctrl_c_is_130_and_the_next_run_goes_on(tmp_path):
     """SIGINT in the middle: one line, 130, finished blocks kept."""
-    path = small_case(seconds=300.0, pairs=16).write(tmp_path / "case")
+    path = small_case(seconds=100.0, pairs=16).write(tmp_path / "case")
     result = tmp_path / "result"
     command = [sys.executable, "-m", "fatigue", "assess", str(path), "-o", str(result), "--threads", "1", "--no-report"]
     process = subprocess.Popen(

@@ -1,6 +1,8 @@
 """Typing mistakes are told before anything heavy is imported, in the words of those who would find them later."""
 
 import errno
+import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -15,29 +17,17 @@ from fatigue.readers.foreign.read import recognise
 from fatigue.readers.neutral.files import open_columns
 
 ROOT = Path(__file__).parents[1]
-HEAVY = "{'numba', 'scipy', 'plotly', 'jinja2'}"
-RUN = f"""
-import sys
-from fatigue.cli import main
-try:
-    main()
-except SystemExit as done:
-    print(done.code, sorted({HEAVY} & set(sys.modules)))
+LIGHT = """
+import json, sys
+from tests.command_line import fatigue
+
+heavy = {"numba", "scipy", "plotly", "jinja2"}
+for line in sys.stdin:
+    done = fatigue(*json.loads(line), cwd=".")
+    imported = heavy & set(sys.modules)
+    heavy -= imported  # it is told once, of the command that did it
+    print(json.dumps([done.returncode, done.stderr, sorted(imported)]), flush=True)
 """
-
-
-def early(folder, *arguments):
-    """Run a command that is mistaken; give exit code, the error lines and which heavy packages it imported."""
-    done = subprocess.run(
-        [sys.executable, "-c", RUN, *map(str, arguments)],
-        cwd=folder,
-        env={**__import__("os").environ, "PYTHONPATH": str(ROOT)},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    code, _, imported = done.stdout.strip().partition(" ")
-    return code, [line for line in done.stderr.splitlines() if line.startswith(("error", "Error"))], imported
 
 
 @pytest.fixture(scope="module")
@@ -52,51 +42,75 @@ def folder(tmp_path_factory):
     return folder
 
 
+@pytest.fixture(scope="module")
+def early(folder):
+    """Run a command that is mistaken; give exit code, the error lines and which heavy packages it imported.
+
+    One process runs them all, as none of them may leave more in it than it found.
+    """
+    with subprocess.Popen(
+        [sys.executable, "-c", LIGHT],
+        cwd=folder,
+        env=os.environ | {"PYTHONPATH": str(ROOT)},
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    ) as light:
+
+        def run(*arguments):
+            print(json.dumps(arguments), file=light.stdin, flush=True)
+            code, said, imported = json.loads(light.stdout.readline())
+            return code, [line for line in said.splitlines() if line.startswith(("error", "Error"))], imported
+
+        yield run
+        light.stdin.close()
+
+
 CONVERT = ("convert", "--mesh", "model.bdf", "--forces", "run.op2", "-o", "out")
 MISTAKES = {
-    "check": (("check", "none.toml"), "3", "none.toml: there is no such file"),
-    "assess": (("assess", "none.toml", "-o", "out"), "3", "none.toml: there is no such file"),
-    "show": (("show", "none"), "3", "none: no finished result in this folder"),
-    "report": (("report", "none"), "3", "none: no finished result in this folder"),
-    "diagnose": (("diagnose", "none"), "3", "none: no finished result in this folder"),
-    "spectra": (("spectra", "none"), "3", "none: no finished result in this folder"),
-    "verify": (("verify", "--results", "none"), "3", "none: no finished result in this folder"),
-    "welds": (("welds", "none.bdf"), "3", "none.bdf: there is no such file"),
-    "welds register": (("welds", "model.bdf", "--register", "none.csv"), "3", "none.csv: there is no such file"),
-    "welds output": (("welds", "model.bdf", "-o", "there.csv"), "3", "there.csv: the file exists"),
-    "welds picture": (("welds", "model.bdf", "--vtp", "there.vtp"), "3", "there.vtp: is there already"),
-    "welds units": (("welds", "model.bdf", "--units", "mm-kg"), "3", "units: unknown unit system 'mm-kg'"),
-    "convert mesh": ((*CONVERT, "--mesh", "none.bdf"), "3", "none.bdf: there is no such file"),
-    "convert coordinates": ((*CONVERT, "--coordinates", "none.csv"), "3", "none.csv: there is no such file"),
-    "convert columns": ((*CONVERT, "--columns", "none.csv"), "3", "none.csv: there is no such file"),
-    "convert units": ((*CONVERT, "--coordinate-units", "SI"), "3", "coordinate units: unknown unit system 'SI'"),
-    "convert modes": ((*CONVERT, "--ignore-modes", "1-6;9"), "3", "'1-6;9' is no mode or range"),
-    "convert range": ((*CONVERT, "--interface-modes", "5-2"), "3", "--interface-modes: '5-2' is no mode or range"),
-    "convert unit loads": ((*CONVERT, "--unit-loads", "none.op2"), "3", "none.op2: there is no such file"),
-    "convert displacement": ((*CONVERT, "--displacement", "no.csv", "3", "z"), "3", "no.csv: there is no such file"),
-    "convert target": ((*CONVERT, "--target-km", "inf"), "2", "'inf' is not a finite number"),
-    "convert step": ((*CONVERT, "--resample", "nan"), "2", "'nan' is not a finite number"),
-    "diagnose bin": (("diagnose", "result", "--bin-km", "0"), "2", "Invalid value for '--bin-km'"),
-    "diagnose share": (("diagnose", "result", "--share-of-limit", "nan"), "2", "'nan' is not a finite number"),
-    "spectra distance": (("spectra", "result", "--compare-km", "0"), "2", "Invalid value for '--compare-km'"),
-    "verify all": (("verify", "--all"), "2", "--all recounts the points of a result"),
-    "synth rate": (("synth", "new", "--rate", "-1"), "2", "Invalid value for '--rate'"),
-    "convert curve": ((*CONVERT, "--curve", "master-alu"), "3", "--curve: there is no curve 'master-alu'"),
-    "convert speed": ((*CONVERT, "--speed", "0"), "2", "Invalid value for '--speed'"),
-    "convert folder": ((*CONVERT, "-o", "body"), "3", "modes.csv: the file exists and is not the work of an earlier"),
-    "tension patch": (("tension-patch", "there.csv"), "3", "there.csv: is there already"),
-    "patch results": (("tension-patch", "none.op2", "--results"), "3", "none.op2: there is no such file"),
-    "synth": (("synth", "synth"), "3", "case.toml: is there already"),
-    "example": (("example", "synth"), "3", "case.toml: is there already"),
+    "check": (("check", "none.toml"), 3, "none.toml: there is no such file"),
+    "assess": (("assess", "none.toml", "-o", "out"), 3, "none.toml: there is no such file"),
+    "show": (("show", "none"), 3, "none: no finished result in this folder"),
+    "report": (("report", "none"), 3, "none: no finished result in this folder"),
+    "diagnose": (("diagnose", "none"), 3, "none: no finished result in this folder"),
+    "spectra": (("spectra", "none"), 3, "none: no finished result in this folder"),
+    "verify": (("verify", "--results", "none"), 3, "none: no finished result in this folder"),
+    "welds": (("welds", "none.bdf"), 3, "none.bdf: there is no such file"),
+    "welds register": (("welds", "model.bdf", "--register", "none.csv"), 3, "none.csv: there is no such file"),
+    "welds output": (("welds", "model.bdf", "-o", "there.csv"), 3, "there.csv: the file exists"),
+    "welds picture": (("welds", "model.bdf", "--vtp", "there.vtp"), 3, "there.vtp: is there already"),
+    "welds units": (("welds", "model.bdf", "--units", "mm-kg"), 3, "units: unknown unit system 'mm-kg'"),
+    "convert mesh": ((*CONVERT, "--mesh", "none.bdf"), 3, "none.bdf: there is no such file"),
+    "convert coordinates": ((*CONVERT, "--coordinates", "none.csv"), 3, "none.csv: there is no such file"),
+    "convert columns": ((*CONVERT, "--columns", "none.csv"), 3, "none.csv: there is no such file"),
+    "convert units": ((*CONVERT, "--coordinate-units", "SI"), 3, "coordinate units: unknown unit system 'SI'"),
+    "convert modes": ((*CONVERT, "--ignore-modes", "1-6;9"), 3, "'1-6;9' is no mode or range"),
+    "convert range": ((*CONVERT, "--interface-modes", "5-2"), 3, "--interface-modes: '5-2' is no mode or range"),
+    "convert unit loads": ((*CONVERT, "--unit-loads", "none.op2"), 3, "none.op2: there is no such file"),
+    "convert displacement": ((*CONVERT, "--displacement", "no.csv", "3", "z"), 3, "no.csv: there is no such file"),
+    "convert target": ((*CONVERT, "--target-km", "inf"), 2, "'inf' is not a finite number"),
+    "convert step": ((*CONVERT, "--resample", "nan"), 2, "'nan' is not a finite number"),
+    "diagnose bin": (("diagnose", "result", "--bin-km", "0"), 2, "Invalid value for '--bin-km'"),
+    "diagnose share": (("diagnose", "result", "--share-of-limit", "nan"), 2, "'nan' is not a finite number"),
+    "spectra distance": (("spectra", "result", "--compare-km", "0"), 2, "Invalid value for '--compare-km'"),
+    "verify all": (("verify", "--all"), 2, "--all recounts the points of a result"),
+    "synth rate": (("synth", "new", "--rate", "-1"), 2, "Invalid value for '--rate'"),
+    "convert curve": ((*CONVERT, "--curve", "master-alu"), 3, "--curve: there is no curve 'master-alu'"),
+    "convert speed": ((*CONVERT, "--speed", "0"), 2, "Invalid value for '--speed'"),
+    "convert folder": ((*CONVERT, "-o", "body"), 3, "modes.csv: the file exists and is not the work of an earlier"),
+    "tension patch": (("tension-patch", "there.csv"), 3, "there.csv: is there already"),
+    "patch results": (("tension-patch", "none.op2", "--results"), 3, "none.op2: there is no such file"),
+    "synth": (("synth", "synth"), 3, "case.toml: is there already"),
+    "example": (("example", "synth"), 3, "case.toml: is there already"),
 }
 
 
 @pytest.mark.parametrize("name", MISTAKES)
-def test_a_typing_mistake_is_told_before_the_imports(folder, name):
+def test_a_typing_mistake_is_told_before_the_imports(early, name):
     """Exit code and one line as ever, and neither numba nor scipy nor plotly was waited for."""
     arguments, code, said = MISTAKES[name]
-    found, errors, imported = early(folder, *arguments)
-    assert (found, imported) == (code, "[]")
+    found, errors, imported = early(*arguments)
+    assert (found, imported) == (code, [])
     (line,) = errors
     assert said in line
 
@@ -120,10 +134,10 @@ def test_the_words_are_those_of_the_readers(tmp_path):
         assert tuple(missing_tables(path)) == refusal_of(open_columns, path, ())
 
 
-def test_all_missing_files_are_named_at_once(folder):
+def test_all_missing_files_are_named_at_once(early):
     """Two of them, two lines."""
-    code, errors, _ = early(folder, "convert", "--mesh", "a.bdf", "--forces", "b.op2", "-o", "out")
-    assert code == "3"
+    code, errors, _ = early("convert", "--mesh", "a.bdf", "--forces", "b.op2", "-o", "out")
+    assert code == 3
     assert len(errors) == 2
 
 
@@ -138,10 +152,10 @@ def test_all_missing_files_are_named_at_once(folder):
     ],
     ids=["no folder", "below a file", "result too long", "case too long", "folder too long"],
 )
-def test_what_the_system_refuses_is_told(folder, arguments, words):
+def test_what_the_system_refuses_is_told(early, arguments, words):
     """It is no fault of the program: one line with place and reason, and the exit code of bad data."""
-    code, lines, _ = early(folder, *arguments)
-    assert code == "3"
+    code, lines, _ = early(*arguments)
+    assert code == 3
     assert len(lines) == 1
     assert words in lines[0]
 
