@@ -78,11 +78,14 @@ def cornered(folder: Path) -> Path:
 
 
 def in_a_loop(folder: Path) -> Path:
-    """Four events, and a sequence of them."""
+    """Four events, and two sequences of them."""
     case = empty_and_laden()
     case.histories = {name: table[table["time_s"] < 4.0] for name, table in case.histories.items()}
-    case.extra = LOOP
+    case.extra = LOOP + LOOP.replace('"load", "laden", "unload"', '"laden"').replace("1.5", "0.5")
     return case.write(folder)
+
+
+SEQUENCES = ["(sequence 1)", "(sequence 2)"]
 
 
 def largest_ranges(folder: Path, station: tuple[str, int, int]) -> pd.DataFrame:

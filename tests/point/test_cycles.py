@@ -13,7 +13,7 @@ from fatigue.point.cycles import cycle_frame, recorded_plan
 from fatigue.point.found import FACES, find_station
 from fatigue.point.reopened import reopened
 from fatigue.results import read_provenance
-from tests.point.cases import CASES
+from tests.point.cases import CASES, SEQUENCES
 
 
 def cycles_of(folder: Path, weld: str, surface: str | None = None, event: str | None = None, **place) -> pd.DataFrame:
@@ -52,7 +52,7 @@ def test_the_damage_of_every_event_at_other_points(results, name):
 def test_of_one_event(results):
     """Only its cycles, a sequence being one as well."""
     every = cycles_of(results("loop"), "A", order=3)
-    for event in ("laden", "(sequence 1)"):
+    for event in ("laden", *SEQUENCES):
         own = cycles_of(results("loop"), "A", event=event, order=3)
         pd.testing.assert_frame_equal(own, every[every["event"] == event].reset_index(drop=True))
     assert (every[every["event"] == "(sequence 1)"]["count"] < 0.0).any()

@@ -48,6 +48,14 @@ def test_the_worst_point_by_default(small_result):
         assert max(of_part.utilisation) == pytest.approx(worst["utilisation"], rel=1e-9)
 
 
+def test_the_worst_point_of_a_part(corner):
+    """That of its toes with the largest utilisation."""
+    nodes = pd.read_parquet(corner / "nodes.parquet").query("weld == 'A' and toe")
+    for part, own in nodes.groupby("part"):
+        assert own["utilisation"].max() > 1.001 * own["utilisation"].min()
+        assert max(find_station(corner, "A", part=part).utilisation) == own["utilisation"].max()
+
+
 def test_a_face_without_a_toe_never_decides(small_result):
     """B has a toe on top only."""
     found = find_station(small_result, "B", order=2)

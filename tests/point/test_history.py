@@ -15,7 +15,7 @@ from fatigue.point.history import COMPONENTS, event_histories, history_frame, re
 from fatigue.point.reopened import reopened
 from fatigue.results import read_provenance
 from tests import naive
-from tests.point.cases import CASES, largest_ranges, plain, ranges_of, result_of
+from tests.point.cases import CASES, SEQUENCES, largest_ranges, plain, ranges_of, result_of
 from tests.small_case import BENDING, MEMBRANE, STEP, THICKNESS
 
 
@@ -65,7 +65,7 @@ def test_ranges_are_those_of_the_assessment(results, name, order):
     folder = results(name)
     part = 1 if name != "corner" or order < 4 else 2
     history = history_of(folder, order=order, part=part)
-    expected = largest_ranges(folder, ("A", part, order)).drop(index=["(sequence 1)"], errors="ignore")
+    expected = largest_ranges(folder, ("A", part, order)).drop(index=SEQUENCES, errors="ignore")
     found = ranges_of(history).loc[expected.index]
     np.testing.assert_allclose(found, expected[["top", "bottom"]], rtol=1e-12, atol=1e-12)
 

@@ -14,7 +14,7 @@ from fatigue.point import written as story
 from fatigue.point.formats import FORMATS
 from fatigue.point.written import write_history
 from fatigue.results.dictionary.decided.history import AT_VERTICES, HISTORY
-from tests.point.cases import largest_ranges, plain, ranges_of, result_of
+from tests.point.cases import SEQUENCES, largest_ranges, plain, ranges_of, result_of
 
 
 def in_mat(path) -> pd.DataFrame:
@@ -40,7 +40,7 @@ def test_every_format_has_the_same_numbers(results, tmp_path, name):
         assert [path.name for path in tmp_path.iterdir() if path.name.startswith(".")] == []
     for other in tables[1:]:
         pd.testing.assert_frame_equal(other, tables[0], check_exact=True, check_dtype=False)
-    expected = largest_ranges(results(name), ("A", 1, 3)).drop(index="(sequence 1)", errors="ignore")
+    expected = largest_ranges(results(name), ("A", 1, 3)).drop(index=SEQUENCES, errors="ignore")
     np.testing.assert_allclose(ranges_of(tables[0]).loc[expected.index], expected[["top", "bottom"]], rtol=1e-12)
 
 
@@ -136,6 +136,8 @@ def test_samples_of_the_file(results, tmp_path):
     assert [event.upsample for event in few.events] == [1, 1, 1]
     assert [event.samples for event in every.events[:2]] == [4 * event.samples for event in few.events[:2]]
     assert "samples of the file" in few.as_text()
+    refined = write_history(results("finer load"), "A", tmp_path / "c.csv", instants="file", event="noise")
+    assert [event.upsample for event in refined.events] == [1]
 
 
 @pytest.mark.parametrize(

@@ -47,10 +47,10 @@ def block_error(pieces: Floats, block: int = BLOCK) -> Floats:
     >>> float(block_error(np.array([3.0, 1, 2, 8, 7, 2, 1, 4, 12, 3, 2, 3]), block=2).round(6))
     0.239357
     """
-    total = pieces.sum(axis=-1)
-    blocks = np.sum([np.roll(pieces, -shift, axis=-1) for shift in range(block)], axis=0)
-    spread = np.sqrt(pieces.shape[-1] / block * blocks.var(axis=-1))
-    return np.asarray(np.divide(spread, total, out=np.zeros_like(total), where=total > 0.0))
+    total = pieces.sum(axis=-1, keepdims=True)
+    share = np.divide(pieces, total, out=np.zeros_like(pieces), where=total > 0.0)  # whose squares are no overflow
+    blocks = np.sum([np.roll(share, -shift, axis=-1) for shift in range(block)], axis=0)
+    return np.asarray(np.sqrt(pieces.shape[-1] / block * blocks.var(axis=-1)))
 
 
 def record_error(pieces: Floats) -> Floats:

@@ -50,7 +50,7 @@ class Gathered:
     counted : the same columns counted again, without those about shear
     weld : row of its weld in the register
     line : rows of all points of its weld
-    bands_counted, bands_stored : band of its life counted now, and those of its weld in the result; None: none there
+    bands_counted, bands_stored : band of its life counted now, and in the result; None: none there
     damage, damage_stored : its rows of ``damage.parquet`` counted again, and as they are in the result
     cycles : its cycles, with the columns of ``cycles.parquet``; of very many those that are alike are one row
     cycle_rows : how many cycles and half cycles there are
@@ -157,6 +157,7 @@ def gather(
     known = diagnosed(folder, record, station.weld, key)
     of_events = [damage.iloc[number : number + 1].reset_index(drop=True) for number in range(len(loads))]
     how = AS_USUAL if known is None else known.settings
+    this = pd.DataFrame([stored[["weld", "part", "order", "surface"]].to_dict()])
     evidence = share_out(inputs.body, points, loads, plan, of_events, how)
     return Gathered(
         record=record,
@@ -166,8 +167,8 @@ def gather(
         counted=counted,
         weld=weld,
         line=read_rows(folder, "nodes", rows_of_welds(folder, "nodes", [station.weld])[station.weld]).to_pandas(),
-        bands_counted=read_bands(scratch, [station.weld]),
-        bands_stored=read_bands(folder, [station.weld]),
+        bands_counted=read_bands(scratch, this),
+        bands_stored=read_bands(folder, this),
         damage=damage,
         damage_stored=_stored_damage(folder, station.rows[face], len(plan.names)),
         cycles=cycles,

@@ -74,7 +74,7 @@ def facts_of(found: Gathered) -> dict[str, Any]:
         "notes": notes_of(found),
         "facts": [*weld_tables.facts(row, weld, curve), *facts_of_band(found), *shear_facts(row)],
         "band": "" if row["life_km"] > wording.LONGEST else band_sentence(found.band),
-        "event": found.event,
+        "governing": wording.NOT_AVAILABLE if pd.isna(row["governing_event"]) else str(row["governing_event"]),
         "undamaged": row["damage_per_km"] == 0.0,
     }
 
@@ -126,7 +126,7 @@ def drawn(found: Gathered, figs: Figures) -> Drawn:
         ranges=cycle_figures(record, name, found.cycles, used, figs),
         damage=why_figures(record, found.why, found.event, figs)
         if damaged
-        else variance_figure(record, found.detail, found.event, figs),
+        else variance_figure(record, found.detail, found.event, "this point", figs),
         domains=[*_domains(found, figs), *shear_figure(record, found.detail, found.event, figs)],
         spectrum=spectrum_figure(record, found.detail, found.event, figs),
     )

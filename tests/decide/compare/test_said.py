@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 
 from fatigue.decide.compare.finished import Finished, read_results
+from fatigue.decide.compare.matched.lines import Proposal
 from fatigue.decide.compare.matched.welds import WeldMap, match_welds
 from fatigue.decide.compare.pairs import Pair, pair_of
 from fatigue.decide.compare.said import gains, notes, sentences
+from fatigue.decide.compare.summary import match_rows
 
 
 @pytest.fixture(scope="module")
@@ -67,3 +69,31 @@ def test_a_worst_point_elsewhere_is_said(result):
     moved = pair.welds.set_index("weld")["worst_moved"]
     assert moved.to_dict() == {"A": True, "B": False}
     assert "Another point is the worst in B at 1 weld: A." in list(notes(pair))
+
+
+def test_proposals_are_told_with_what_to_do(result):
+    """One that is certain, one of welds on one line that nothing tells apart; both stand in the table of matches."""
+    pair = beside(result)
+    some = (Proposal("C", "left", 0.25), Proposal("D", "right", 0.0, ("other",)))
+    matched = replace(pair.matched, proposed=some, only_first=("C", "D"), only_other=("left", "right", "other"))
+    said = list(notes(replace(pair, matched=matched)))
+    assert (
+        "Lines that lie on each other, proposed and not used: C = left (0.25 mm). Take them with --accept-proposed."
+        in said
+    )
+    assert (
+        "Lines on one place that cannot be told apart: D may be right and other. Name them in a table with --map."
+        in said
+    )
+    table = match_rows(replace(pair, matched=matched))
+    proposed = table[table["matched_by"] == "proposed"]
+    assert proposed["note"].tolist() == ["take it with --accept-proposed", "as well: other"]
+    assert table["other_weld"].tolist()[2:] == ["left", "right", "other"]
+
+
+def test_renamed_events_are_hinted_at(result):
+    """Events of either result without a partner: one of them may be the other under another name."""
+    passes = {name.replace("noise", "rough"): often for name, often in result.passes.items()}
+    said = " ".join(notes(replace(beside(result), other=replace(result, letter="B", passes=passes))))
+    assert "Events are matched by name: noise of A and rough of B have no partner." in said
+    assert "matched by name" not in " ".join(notes(beside(result)))

@@ -187,6 +187,10 @@ def test_nothing_damages(tmp_path):
     assert found.agrees
     assert "Nothing damages this point" in found.as_text()
     assert json_ready(found.as_record())["counted"]["life_km"] is None
+    page = Page((tmp_path / "rest.html").read_text(encoding="utf-8"))
+    assert set(page.figures) == {"along", "history"}
+    assert "Its stress does not vary" in page.words
+    assert " nan" not in page.words.lower()
 
 
 def test_an_undamaged_point_below_a_cut_off_has_its_figures(tmp_path):

@@ -45,7 +45,7 @@ def record_figures(record: Record, detail: Detail, event: str | None, figs: Figu
         return []
     return [
         *history_figure(record, detail, event, figs),
-        *(variance_figure(record, detail, event, figs) if modes_too else ()),
+        *(variance_figure(record, detail, event, "the worst point", figs) if modes_too else ()),
         *spectrum_figure(record, detail, event, figs),
     ]
 
@@ -62,21 +62,21 @@ def history_figure(record: Record, detail: Detail, event: str, figs: Figures) ->
     return [figs.add("history", history, caption, wide=True, of_curve=False)]
 
 
-def variance_figure(record: Record, detail: Detail, event: str, figs: Figures) -> list[Shown]:
-    """Shares of modes and unit loads in the variance of the stress."""
-    if detail.variance_share is None:
+def variance_figure(record: Record, detail: Detail, event: str, whose: str, figs: Figures) -> list[Shown]:
+    """Shares of modes and unit loads in the variance of the stress; none where nothing varies."""
+    if detail.variance_share is None or np.isnan(detail.variance_share).all():
         return []
     names, _ = mode_names(record)
     parts = _leading(record, detail.variance_share)
     title = f"share of the stress variance in event {wording.in_figure(event)} [%]"
     bars = figures.shares([names[mode] for mode in parts], np.array(list(parts.values())), title)
     what = "Modes and unit loads" if record.get("unit_loads") else "Modes"
-    return [figs.add("modes", bars, f"{what} in the stress of the worst point", of_curve=False)]
+    return [figs.add("modes", bars, f"{what} in the stress of {whose}", of_curve=False)]
 
 
 def spectrum_figure(record: Record, detail: Detail, event: str, figs: Figures) -> list[Shown]:
-    """Spectra of the stress, with the normal modes marked that lead in its variance."""
-    if detail.variance_share is None or not detail.spectra:
+    """Spectra of the stress, with the normal modes marked that lead in its variance; none where nothing varies."""
+    if detail.variance_share is None or not detail.spectra or np.isnan(detail.variance_share).all():
         return []
     _, natural = mode_names(record)
     parts = _leading(record, detail.variance_share)

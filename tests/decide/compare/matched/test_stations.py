@@ -106,3 +106,13 @@ def test_spacing_is_that_of_the_shorter_edge_within_the_part():
     alone = replace(one, weld=one.weld + 0)
     found = match_stations(alone, one, np.array([0, 1]))
     assert found.comparable.all()
+
+
+@pytest.mark.parametrize(("away", "is_comparable"), [(1.249, True), (1.251, False)])
+def test_half_the_finer_spacing_is_the_limit(away, is_comparable):
+    """Spacing 2.5 mm on one side, 20 mm on the other: 1.25 mm, whichever of them is the reference."""
+    coarse, fine = points(line(6)), points(line(41) + np.array([0.0, away, 0.0]))
+    assert match_stations(coarse, fine, ONE).comparable.all() == is_comparable
+    back = match_stations(fine, coarse, ONE)
+    assert back.comparable[::8].all() == is_comparable
+    assert not back.comparable[4]
