@@ -6,6 +6,7 @@ weld, summed at its nodes: what the element itself carries of the load, ``f_e``,
 """
 
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -39,6 +40,7 @@ class CarBody:
         return np.searchsorted(self.node, nodes)
 
 
+@cache
 def car_body():
     """The shell model of ``data/carbody``: flat quads whose double skins bend with a thickness of their own."""
     nodes, elements = (pd.read_parquet(FOLDER / f"{name}.parquet") for name in ("nodes", "elements"))

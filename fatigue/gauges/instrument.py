@@ -12,6 +12,7 @@ Floats = NDArray[np.float64]
 
 CALIBRATED_ON_NU = 0.285  # of the steel on which makers calibrate gauge factors
 MICRO = 1e6
+MICROSTRAIN = "µε"  # the unit on a page; ue in tables and files
 
 
 def normal_stress(stress: Floats, angle_deg: float) -> Floats:

@@ -23,7 +23,7 @@ def doubts(comparisons: Sequence[Comparison], gauges: Mapping[str, Gauge], high_
             )
         elif not one.km > 0.0:
             what = "the train stands wherever its samples are counted, and every number is per km: there is no verdict"
-            yield Problem("no_distance", where, what, "Record while it runs, or give --km")
+            yield Problem("stood_still", where, what, "Record while it runs, or give --km")
         drifts = [row for row in one.flags if row.flag == DRIFT]
         if drifts:
             what = f"its level drifts by {max(row.distance_ue for row in drifts):.3g} ue between blocks of 10 s"

@@ -7,9 +7,8 @@ import plotly.graph_objects as go
 
 from fatigue.gauges.histories.counts import GaugeSpectra
 from fatigue.gauges.histories.tables import GaugeRow
-from fatigue.gauges.instrument import Floats
+from fatigue.gauges.instrument import MICROSTRAIN, Floats
 from fatigue.gauges.simulated import Reading
-from fatigue.gauges.units import MICROSTRAIN
 from fatigue.report.figures.scene import BodyOutline, body_traces, space_around
 from fatigue.report.figures.style import DASHES, INK, SERIES, Trace, axis, figure, log_axis, single
 from fatigue.report.wording import in_figure, number

@@ -6,8 +6,8 @@ from fatigue.gauges.histories.counts import GaugeSpectra
 from fatigue.gauges.histories.figures import EXCERPT_S, MOST_HISTORIES, MOST_SPECTRA, exceedance, excerpts, places
 from fatigue.gauges.histories.summary import Histories
 from fatigue.gauges.histories.tables import EventRow, GaugeRow
+from fatigue.gauges.instrument import MICROSTRAIN
 from fatigue.gauges.simulated import Reading
-from fatigue.gauges.units import MICROSTRAIN
 from fatigue.pipeline.solve.body import Body
 from fatigue.report.figures.scene import body_outline
 from fatigue.report.page_text import page_text
@@ -44,6 +44,7 @@ def histories_page(found: Histories, body: Body, readings: Sequence[Reading], sp
         "gauges": _gauges(found.gauges),
         "surety": _surety(found.gauges),
         "events": _events(found.events),
+        "most_rows": MOST_ROWS,
         "warnings": found.warnings,
     }
     return page_text("fatigue.gauges.histories", "gauges.html", context, figs)

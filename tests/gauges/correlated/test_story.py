@@ -176,7 +176,7 @@ def test_where_the_train_stands_nothing_is_had_per_km(made):
     found = told(made, made.record(strain=x, v=speed), channels, km=None, into=made.folder / "stood")
     assert verdicts(found) == ["data"]
     assert np.isnan(list(found.comparisons[0].numbers.range_ratios.values())).all()
-    assert "no_distance" in [warning.code for warning in found.warnings]
+    assert "stood_still" in [warning.code for warning in found.warnings]
 
 
 def test_two_records_of_one_name_are_told_apart(made):

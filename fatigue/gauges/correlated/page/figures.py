@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from fatigue.gauges.correlated.compared import Comparison
 from fatigue.gauges.correlated.flag_rows import SpikeShown
-from fatigue.gauges.units import MICROSTRAIN
+from fatigue.gauges.instrument import MICROSTRAIN
 from fatigue.report.figures.style import MISSED, QUIET, SERIES, Trace, axis, figure, log_axis, single
 from fatigue.shown import shortened, visible
 

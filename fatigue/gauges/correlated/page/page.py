@@ -17,7 +17,7 @@ from fatigue.gauges.correlated.verdict import (
     SIGN,
     YARDSTICK,
 )
-from fatigue.gauges.units import MICROSTRAIN
+from fatigue.gauges.instrument import MICROSTRAIN
 from fatigue.report.page_text import page_text
 from fatigue.report.rows_table import FILTERED_FROM, MOST_ROWS
 from fatigue.report.sections.cells import Cell, Heading, PageTable, integer, num, percent, text
@@ -62,6 +62,7 @@ def correlation_page(found: Correlation) -> str:
         "verdicts": _verdict_table(found, ids),
         "warnings": found.warnings,
         "gauges": [_section(one, ids[id(one)], figs, found.is_aligned) for one in shown],
+        "not_listed": max(0, len(found.comparisons) - MOST_ROWS),
         "left_out": len(found.comparisons) - len(shown),
     }
     return page_text("fatigue.gauges.correlated.page", "correlation.html", context, figs)
