@@ -108,8 +108,8 @@ class WhatIf:
     def _table(self) -> Iterator[str]:
         lines = [("weld", "before [km]", "life [km]", "from .. to", "ratio", "verdict", "basis")]
         for row in self.welds.head(MOST_TOLD).itertuples():
-            band = f"{life(row.life_km_low)} .. {life(row.life_km_high)}"
-            band = "" if row.life_km_low == row.life_km_high else band
+            ends = life(row.life_km_low), life(row.life_km_high)
+            band = "" if ends[0] == ends[1] else " .. ".join(ends)
             lives = life(row.life_km_before), life(row.life_km), band, _three(row.life_ratio)
             lines.append((shortened(visible(row.weld), NAME), *lives, _words(row.verdict), row.basis))
         yield from aligned(lines, right=range(1, 5))
