@@ -87,9 +87,12 @@ def test_folder_of_a_what_if(result, tmp_path):
 
 
 def test_the_result_keeps_its_bytes(result):
-    """Nothing is written into the folder of the result."""
+    """Nothing is written into the folder of the result, even where that is asked for."""
     before = {path.name: path.read_bytes() for path in result.iterdir() if path.is_file()}
     fatigue("whatif", result, "--set", "curve.extension=cutoff", "--json")
+    done = fatigue("whatif", result, "--set", "load=1.1", "-o", result / ".." / result.name)
+    assert done.returncode == 3
+    assert "is one of the results that are read" in done.stderr
     assert before == {path.name: path.read_bytes() for path in result.iterdir() if path.is_file()}
 
 

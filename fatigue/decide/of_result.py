@@ -16,6 +16,7 @@ Floats = NDArray[np.float64]
 Record = Mapping[str, Any]
 
 FACES = ("top", "bottom")
+ROUNDING = 1e-9  # relative, of a stored sum
 
 
 def counted_points(folder: Path) -> NDArray[np.bool_]:
@@ -66,6 +67,16 @@ def events_and_loops(record: Record) -> tuple[str, ...]:
     """Names of the events, then of the loops: the rows of a point in the table of damage, in their order."""
     events = (event["event"] for event in record["mission"]["events"])
     return (*events, *(loop["name"] for loop in loops_of(record)))
+
+
+def is_sum_of_events(damage: Floats, of_events: Floats) -> NDArray[np.bool_]:
+    """Whether the damage of points (n,) is what their events add up to; else another sum decides there, that of shear.
+
+    >>> is_sum_of_events(np.array([2e-8, 3e-8, 0.0]), np.array([2e-8, 2e-8, 0.0]))
+    array([ True, False,  True])
+    """
+    with np.errstate(invalid="ignore"):
+        return np.asarray((np.abs(of_events - damage) <= ROUNDING * np.abs(damage)) | (of_events == damage))
 
 
 def shear_method(record: Record) -> str:

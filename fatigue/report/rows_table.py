@@ -17,8 +17,12 @@ def rows_table(name: str, columns: Sequence[Column], rows: Sequence[Any]) -> Pag
     there = [column for column in columns if any(_is_there(getattr(row, column.name)) for row in shown)]
     headings = tuple(_heading(column) for column in there)
     cells = tuple(tuple(_cell(column, getattr(row, column.name)) for column in there) for row in shown)
-    label = "Find a row" if len(shown) >= FILTERED_FROM else ""
-    return PageTable(name.replace("_", "-") + "-table", headings, cells, label)
+    return PageTable(name.replace("_", "-") + "-table", headings, cells, filter_label(len(shown), "row"))
+
+
+def filter_label(rows: int, what: str) -> str:
+    """Label of the filter above a table of so many rows; a short table has none."""
+    return f"Find a {what}" if rows >= FILTERED_FROM else ""
 
 
 def _is_there(value: Any) -> bool:

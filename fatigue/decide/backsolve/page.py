@@ -7,7 +7,7 @@ from fatigue.decide.backsolve.rows import AnswerRow
 from fatigue.decide.backsolve.summary import ASKED, Answers, answer_words
 from fatigue.report.figures.style import ACCENT, INK, QUIET, Trace, axis, figure, log_axis, upright
 from fatigue.report.page_text import page_text
-from fatigue.report.rows_table import FILTERED_FROM, MOST_ROWS
+from fatigue.report.rows_table import MOST_ROWS, filter_label
 from fatigue.report.sections.cells import Cell, Heading, PageTable, integer, num, text
 from fatigue.report.sections.embed import Figures, Shown
 from fatigue.report.wording import in_figure, number
@@ -105,8 +105,7 @@ def _welds(found: Answers) -> PageTable:
         line += [num(row.factor)] if asked.of in ("thickness", "km_per_year") else []
         line += [num(row.utilisation_now), _deviation(row), text(row.basis)]
         cells.append(tuple(line))
-    label = "Find a weld" if len(rows) >= FILTERED_FROM else ""
-    return PageTable("backsolve-table", tuple(headings), tuple(cells), label)
+    return PageTable("backsolve-table", tuple(headings), tuple(cells), filter_label(len(rows), "weld"))
 
 
 def _deviation(row: AnswerRow) -> Cell:

@@ -7,6 +7,7 @@ from typing import Any
 
 from fatigue.decide.backsolve.question import Question
 from fatigue.decide.backsolve.rows import AnswerRow
+from fatigue.decide.text_lines import aligned
 from fatigue.errors import Problem
 from fatigue.report.wording import number
 from fatigue.shown import shortened, visible
@@ -137,10 +138,4 @@ def _table(asked: Question, rows: tuple[AnswerRow, ...]) -> Iterator[str]:
         proof = f"{row.deviation:.1e}" if row.deviation == row.deviation else "-"
         line += [number(row.utilisation_now), proof, row.basis]
         cells.append(line)
-    width = [max(len(line[i]) for line in (heads, *cells)) for i in range(len(heads))]
-    left = (0, 2, len(heads) - 1)
-    for line in (heads, *cells):
-        told = (
-            text.ljust(n) if i in left else text.rjust(n) for i, (text, n) in enumerate(zip(line, width, strict=True))
-        )
-        yield ("  " + "  ".join(told)).rstrip()
+    yield from aligned([heads, *cells], right=[1, *range(3, len(heads) - 1)])

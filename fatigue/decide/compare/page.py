@@ -10,7 +10,7 @@ from fatigue.decide.compare.pairs import Pair
 from fatigue.decide.compare.said import gains, notes, sentences
 from fatigue.decide.compare.summary import Comparison, match_rows, result_rows
 from fatigue.report.page_text import page_text
-from fatigue.report.rows_table import MOST_ROWS, rows_table
+from fatigue.report.rows_table import MOST_ROWS, filter_label, rows_table
 from fatigue.report.sections.cells import Cell, Heading, PageTable, life, num, text, verdict
 from fatigue.report.sections.embed import Figures
 from fatigue.results.dictionary.decided.compare import MATCHES, RESULTS
@@ -134,7 +134,7 @@ def _ranking(pair: Pair) -> PageTable:
         )
         for row in pair.welds.head(MOST_ROWS).itertuples(index=False)
     ]
-    return PageTable(f"ranking-{letter.lower()}", headings, tuple(rows), "Find a weld" if len(rows) >= 25 else "")
+    return PageTable(f"ranking-{letter.lower()}", headings, tuple(rows), filter_label(len(rows), "weld"))
 
 
 def _ratio(ratio: float, basis: str) -> Cell:

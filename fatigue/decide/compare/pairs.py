@@ -38,6 +38,7 @@ class Pair:
     differences : what else differs
     face_assumed : why faces of one name were taken for one face; empty where normals tell
     every_point : whether ``causes`` has all points, else those that are the worst of their welds
+    by_shear : points without causes, as a sum of shear decides about their life
     """
 
     first: Finished
@@ -50,6 +51,7 @@ class Pair:
     differences: tuple[Difference, ...]
     face_assumed: str
     every_point: bool
+    by_shear: int
 
 
 def pair_of(a: Finished, b: Finished, matched: MatchedWelds) -> Pair:
@@ -109,6 +111,7 @@ def pair_of(a: Finished, b: Finished, matched: MatchedWelds) -> Pair:
         differences=tuple(differences(a, b, matched)),
         face_assumed=assumed,
         every_point=every_point,
+        by_shear=len(chosen) - int(np.count_nonzero(np.unique(pair) >= len(counted))),
     )
 
 

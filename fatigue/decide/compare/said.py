@@ -160,6 +160,8 @@ def _about_causes(pair: Pair) -> Iterator[str]:
             yield "Causes go as far as events: the diagnoses share no point, or are of other damage."
         elif told < points:
             yield f"Causes go as far as modes at {told} of {points} points: those that both diagnoses tell of."
+    if pair.by_shear:
+        yield f"Shear decides at {pair.by_shear} points, by a sum that no event has a part of: they have no causes."
     if not pair.every_point:
         yield "Causes are of the worst points of every weld: those of all points would be more than 2 million rows."
     if pair.first.frequency_hz != pair.other.frequency_hz:

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from fatigue.decide.compare.causes import added, log_ratio, split
 from fatigue.decide.compare.finished import Finished, Ints
-from fatigue.decide.of_result import FACES
+from fatigue.decide.of_result import FACES, is_sum_of_events
 from fatigue.results import number_groups, read_codes
 
 Floats = NDArray[np.float64]
@@ -40,6 +40,7 @@ class Damages:
 def causes(a: Finished, b: Finished, rows_a: Ints, rows_b: Ints) -> pd.DataFrame:
     """What makes the ratio of lives of pairs of points, both of which are damaged and counted.
 
+    Nothing is told of points whose damage is not the sum of their events, as a sum of shear decides there.
     Columns: ``pair`` (from 0), ``kind``, ``event``, ``mode``, ``unit_load``, ``value``, ``other_value``, ``unit`` and
     ``log_life_ratio``, what it adds to ``ln(life_B / life_A)``. Modes and unit loads stand where both results have a
     diagnosis of the point.
@@ -66,6 +67,9 @@ def causes(a: Finished, b: Finished, rows_a: Ints, rows_b: Ints) -> pd.DataFrame
     if a.is_diagnosed and b.is_diagnosed:
         tables.append(_by_coordinate((a, b), (rows_a, rows_b), events, (of_a, of_b)))
     table = pd.concat([one for one in tables if len(one)] or tables[:1], ignore_index=True)
+    is_sum = is_sum_of_events(a.points.damage[rows_a], of_a.total)
+    is_sum &= is_sum_of_events(b.points.damage[rows_b], of_b.total)
+    table = table[is_sum[table["pair"].to_numpy()]].copy()
     table["rank"] = table["kind"].map(_RANK)
     table["size"] = -table["log_life_ratio"].abs()
     table = table.sort_values(["pair", "event", "rank", "size"], kind="stable", ignore_index=True)

@@ -10,6 +10,7 @@ import pandas as pd
 from fatigue.decide.compare.finished import Finished
 from fatigue.decide.compare.pairs import Pair
 from fatigue.decide.compare.said import notes, sentences
+from fatigue.decide.text_lines import aligned
 from fatigue.report.wording import life_km
 from fatigue.shown import shortened, visible
 
@@ -81,18 +82,13 @@ def _ranking(pair: Pair) -> str:
             life_km(row.other_life_km),
             f"x {row.life_ratio:.3g}" + {"at_least": " or more", "at_most": " or less"}.get(row.basis, ""),
             {"lost": "MISSES NOW", "gained": "meets now", "": "" if row.fulfilled else "misses"}[row.flip],
-            row.cause_event if row.why else "",
+            (row.cause_event or "") if row.why else "",
         )
         for row in welds.itertuples(index=False)
     ]
     head = ("weld", "life in A", f"life in {pair.other.letter}", "ratio", "target", "largest cause")
-    widths = [max(len(str(row[i])) for row in [head, *rows]) for i in range(len(head))]
-    lines = [
-        "  " + "  ".join(str(cell or "").ljust(w) for cell, w in zip(row, widths, strict=True)).rstrip()
-        for row in [head, *rows]
-    ]
     left = len(pair.welds) - len(welds)
-    return "\n".join([*lines, *[f"  and {left} welds between"] * bool(left)])
+    return "\n".join([*aligned([head, *rows], right=()), *[f"  and {left} welds between"] * bool(left)])
 
 
 def _indented(sentence: str, then: str = "  ") -> str:

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from fatigue.decide.fleet.rows import PercentileRow, UnitRow
 from fatigue.decide.fleet.summary import LONGEST_YEARS, years
-from fatigue.report.rows_table import FILTERED_FROM, MOST_ROWS
+from fatigue.report.rows_table import MOST_ROWS, filter_label
 from fatigue.report.sections.cells import Cell, Heading, PageTable, integer, life, num, percent, text, verdict
 
 
@@ -29,7 +29,7 @@ def units_table(rows: Sequence[UnitRow]) -> PageTable:
         told += [percent(row.damage_cv)] if has_error else []
         told += [verdict(row.fulfilled)] if has_target else []
         cells.append(tuple(told))
-    return PageTable("fleet-units-table", tuple(headings), tuple(cells), _label(len(shown), "Find a unit"))
+    return PageTable("fleet-units-table", tuple(headings), tuple(cells), filter_label(len(shown), "unit"))
 
 
 def percentiles_table(rows: Sequence[PercentileRow]) -> PageTable:
@@ -45,13 +45,9 @@ def percentiles_table(rows: Sequence[PercentileRow]) -> PageTable:
         for weld in welds
     )
     headings = (Heading("weld", numeric=False), *(Heading(f"P{p:g}", "years") for p in percents))
-    return PageTable("fleet-percentiles-table", headings, cells, _label(len(cells), "Find a weld"))
+    return PageTable("fleet-percentiles-table", headings, cells, filter_label(len(cells), "weld"))
 
 
 def lived(value: float, is_bound: bool) -> Cell:
     """Cell with a life in years, at least this where a bound stands for the damage."""
     return Cell(years(value, is_bound, unit="").replace(">=", "≥"), min(value, LONGEST_YEARS))
-
-
-def _label(rows: int, label: str) -> str:
-    return label if rows >= FILTERED_FROM else ""

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from fatigue.decide.fleet.rows import PercentileRow, UnitRow, VarianceRow
+from fatigue.decide.text_lines import aligned
 from fatigue.errors import Problem
 from fatigue.report.wording import life, number, share, whole
 from fatigue.shown import few, shortened, visible
@@ -111,7 +112,7 @@ class FleetFound:
             )
             for row in shown
         ]
-        yield from _table(heads, rows, (1, 2, 4))
+        yield from aligned([heads, *rows], right=(1, 2, 4))
         if len(self.units) > len(shown):
             yield f"and {len(self.units) - len(shown)} units that live longer, see fleet_units.parquet"
 
@@ -127,7 +128,7 @@ class FleetFound:
             )
             for name in names[: WELDS_TOLD + 1]
         ]
-        yield from _table(("weld", *(f"P{p:g}" for p in percent)), rows, range(1, len(percent) + 1))
+        yield from aligned([("weld", *(f"P{p:g}" for p in percent)), *rows], right=range(1, len(percent) + 1))
         if (more := len(names) - 1 - WELDS_TOLD) > 0:
             yield f"and {more} welds that live longer, see fleet_percentiles.parquet"
 
@@ -166,11 +167,3 @@ def years(value: float, is_bound: bool, unit: str = " years") -> str:
     if value > LONGEST_YEARS or not np.isfinite(value):
         return f"> 1e6{unit}"
     return f"{'>= ' if is_bound else ''}{life(value)}{unit}"
-
-
-def _table(heads: Sequence[str], rows: Sequence[Sequence[str]], right: Sequence[int]) -> Iterator[str]:
-    """Lines of a table, its columns as wide as they have to be; those of ``right`` end in line."""
-    width = [max(len(row[i]) for row in (heads, *rows)) for i in range(len(heads))]
-    for row in (heads, *rows):
-        cells = [row[i].rjust(width[i]) if i in right else row[i].ljust(width[i]) for i in range(len(row))]
-        yield ("  " + "  ".join(cells)).rstrip()

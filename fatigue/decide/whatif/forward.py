@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from fatigue.decide.of_result import is_sum_of_events
 from fatigue.decide.whatif.change import Change
 from fatigue.decide.whatif.curves import Curves, OneCurve
 from fatigue.decide.whatif.stored import Kind, Stored, StoredRanges
@@ -243,10 +244,7 @@ def _bounded(stored: Stored, change: Change, curve: OneCurve, rows: NDArray[np.i
 
 def _without_sum(stored: Stored, change: Change, curves: Curves, found: Forward, *, decided_by_shear: bool) -> None:
     """Points whose damage is not the sum of its events, as another sum decides there, in place."""
-    sums = stored.per_pass @ change.before.weights
-    with np.errstate(invalid="ignore"):
-        differs = ~(np.abs(sums - stored.damage_per_km) <= ROUNDING * np.abs(stored.damage_per_km))
-    differs &= ~((sums == 0.0) & (stored.damage_per_km == 0.0))
+    differs = ~is_sum_of_events(stored.damage_per_km, stored.per_pass @ change.before.weights)
     if decided_by_shear:
         differs |= stored.toe
     if not differs.any():

@@ -8,7 +8,7 @@ from fatigue.decide.whatif.forward import BASES
 from fatigue.decide.whatif.summary import WhatIf
 from fatigue.report import wording
 from fatigue.report.page_text import page_text
-from fatigue.report.rows_table import FILTERED_FROM, MOST_ROWS
+from fatigue.report.rows_table import MOST_ROWS, filter_label
 from fatigue.report.sections.cells import Cell, Heading, PageTable, life, num, span, text
 from fatigue.report.sections.embed import Figures
 
@@ -105,7 +105,7 @@ def _weld_table(found: WhatIf) -> PageTable:
         )
         for row in found.welds.head(MOST_ROWS).itertuples()
     )
-    return PageTable("welds-table", HEADINGS, rows, "Find a weld" if len(rows) >= FILTERED_FROM else "")
+    return PageTable("welds-table", HEADINGS, rows, filter_label(len(rows), "weld"))
 
 
 def _bases(found: WhatIf) -> PageTable:

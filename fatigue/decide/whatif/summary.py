@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from fatigue.decide.text_lines import aligned
 from fatigue.decide.whatif.forward import BASES
 from fatigue.decide.whatif.verdicts import MISSES, NOT_PROVEN
 from fatigue.errors import Problem
@@ -105,14 +106,13 @@ class WhatIf:
             yield f"{visible(row.weld)}: {_words(row.verdict_before)} before, now {_words(row.verdict)}"
 
     def _table(self) -> Iterator[str]:
-        lives = f"{'before [km]':>12}{'life [km]':>12}  {'from .. to':>22}  {'ratio':>6}"
-        yield f"  {'weld':{NAME}}{lives}  {'verdict':12}basis"
+        lines = [("weld", "before [km]", "life [km]", "from .. to", "ratio", "verdict", "basis")]
         for row in self.welds.head(MOST_TOLD).itertuples():
-            band = f"{life(row.life_km_low)} .. {life(row.life_km_high)}"
-            band = "" if row.life_km_low == row.life_km_high else band
-            name = shortened(visible(row.weld), NAME - 1)
-            line = f"  {name:{NAME}}{life(row.life_km_before):>12}{life(row.life_km):>12}  {band:>22}  "
-            yield f"{line}{_three(row.life_ratio):>6}  {_words(row.verdict):12}{row.basis}"
+            ends = life(row.life_km_low), life(row.life_km_high)
+            band = "" if ends[0] == ends[1] else " .. ".join(ends)
+            lives = life(row.life_km_before), life(row.life_km), band, _three(row.life_ratio)
+            lines.append((shortened(visible(row.weld), NAME), *lives, _words(row.verdict), row.basis))
+        yield from aligned(lines, right=range(1, 5))
         if (more := len(self.welds) - MOST_TOLD) > 0:
             yield f"  and {more} more, which do not miss their target or are further from it"
 

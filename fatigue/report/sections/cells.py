@@ -84,6 +84,6 @@ def linked(weld: str, links: Mapping[str, str]) -> Cell:
 
 
 def span(low: float, high: float, written: Callable[[Any], str] = number) -> Cell:
-    """Cell with the range of a quantity, sorted by its lower end; one number where both ends are equal."""
-    both = written(low) if low == high or pd.isna(low) else f"{written(low)} to {written(high)}"
-    return Cell(both, num(low).value)
+    """Cell with the range of a quantity, sorted by its lower end; one number where both ends read the same."""
+    ends = written(low), written(high)
+    return Cell(ends[0] if ends[0] == ends[1] or pd.isna(low) else " to ".join(ends), num(low).value)

@@ -351,6 +351,8 @@ def test_refusals(result, tmp_path):
     shear = made(case, tmp_path / "shear")
     with pytest.raises(DataError, match="verdicts rest on normal stress and shear"):
         backsolve(shear, "load")
+    case.extra = case.extra.replace('"range"', '"off"')
+    assert backsolve(made(case, tmp_path / "off"), "load").solved
     base = made(short(), tmp_path / "gone")
     (tmp_path / "gone" / "case" / "noise.csv").unlink()
     backsolve(base, "load")  # nothing is counted

@@ -469,6 +469,22 @@ def test_the_same_bytes_again(reference, changed, tmp_path):
         assert files[0] == files[1]
 
 
+def test_where_shear_decides_there_are_no_causes(tmp_path):
+    """The larger sum of shear is no sum of events: causes of it would not add up to the ratio of the lives."""
+    results = []
+    for name, shear in (("a", 3.0), ("b", 3.9)):
+        case = sloping()
+        case.nodal_forces["fx_N"] += shear * case.nodal_forces[["fy_N", "fz_N"]].abs().max(axis=1)
+        case.extra = '[multiaxial]\nmethod = "range"\n'
+        results.append(result_of(case, tmp_path / name))
+    (pair,) = compare(results).pairs
+    assert 0 < pair.by_shear < len(pair.points)
+    told = pair.causes.loc[pair.causes["scope"] == "point", POINT].drop_duplicates()
+    assert len(told) + pair.by_shear == len(pair.points)
+    assert_nothing_left_over(pair, has_modes=False)
+    assert f"Shear decides at {pair.by_shear} points" in " ".join(notes(pair))
+
+
 def test_too_few_or_the_same_twice(reference):
     """One line each."""
     with pytest.raises(CaseError, match="1 result is given"):

@@ -7,7 +7,6 @@ import pytest
 
 from fatigue.decide.whatif.story import whatif
 from tests.decide.whatif.reruns import (
-    CURVES,
     base_case,
     both,
     changed,
@@ -27,13 +26,10 @@ EVENTS = 'mission.event."load and unload"'
 SHARE = "mission.event.{}.share={}"
 HALVES = [SHARE.format("sine", 0.5), SHARE.format("noise", 0.5)]
 MISSION = {  # settings, events that are dropped, and the case that is assessed beside it
-    "share 0": ([SHARE.format("sine", 0.0), SHARE.format("noise", 1.0)], (), shares(0.0)),
-    "share 1": ([SHARE.format("sine", 1.0), SHARE.format("noise", 0.0)], (), shares(1.0)),
     "by number 0": ([f"{EVENTS}.per_1000_km=0"], (), event("load and unload", per_1000_km=0)),
     "by number 500": ([f"{EVENTS}.per_1000_km=500"], (), event("load and unload", per_1000_km=500)),
     "slow": (["mission.event.sine.speed_km_h=20"], (), event("sine", speed_km_h=20.0)),
     "fast": (["mission.event.noise.speed_km_h=500"], (), event("noise", speed_km_h=500.0)),
-    "length": (["mission.event.noise.length_km=0.3"], (), event("noise", length_km=0.3)),
     "number dropped": ([], ("load and unload",), dropped("load and unload")),
     "target": (["mission.target_km=1e6"], (), mission(target_km=1e6)),
     "limit and year": (
@@ -42,11 +38,11 @@ MISSION = {  # settings, events that are dropped, and the case that is assessed 
         mission(damage_limit=0.5, km_per_year=3e5),
     ),
 }
-NOT_IN_SEQUENCE = {  # what a case with this sequence cannot have
-    "share 0": None,
-    "share 1": None,
+WITHOUT = {  # what a case with this sequence cannot have
+    "share 0": ([SHARE.format("sine", 0.0), SHARE.format("noise", 1.0)], (), shares(0.0)),
+    "share 1": ([SHARE.format("sine", 1.0), SHARE.format("noise", 0.0)], (), shares(1.0)),
     "noise dropped": ([SHARE.format("sine", 1.0)], ("noise",), dropped("noise", share=1.0)),
-    "length": None,
+    "length": (["mission.event.noise.length_km=0.3"], (), event("noise", length_km=0.3)),
 }
 CURVE = {
     "load 0.5": (["load=0.5"], (), load(0.5)),
@@ -115,18 +111,24 @@ SEQUENCE = {
 EXACT = {"exact"}
 
 
+ASKED = {  # of every curve, without and with a sequence; what a mission does to stored damage depends on no curve
+    ("straight", False): CURVE | OTHERS["straight"],
+    ("straight", True): MISSION | CURVE | SEQUENCE,
+    ("haibach", False): MISSION | WITHOUT | CURVE | OTHERS["haibach"],
+    ("haibach", True): CURVE | OTHERS["haibach"] | SEQUENCE,
+    ("cutoff", False): CURVE | OTHERS["cutoff"],
+    ("cutoff", True): SEQUENCE | {"load 2": CURVE["load 2"]},
+    ("structural", False): CURVE | OTHERS["structural"],
+    ("structural", True): SEQUENCE | {"load 2": CURVE["load 2"]},
+}
+AS_IT_IS = {"straight": "none"}  # other knobs of extension have the name of the curve
+
+
 def cases():
     """Curve, sequence or not, name of the knob, settings, dropped events, and the case beside it."""
-    for name in CURVES:
-        for sequence in (False, True):
-            of_mission = {} if name in ("cutoff", "structural") else MISSION
-            knobs = of_mission | CURVE | OTHERS[name]
-            knobs = knobs | SEQUENCE if sequence else knobs | {k: v for k, v in NOT_IN_SEQUENCE.items() if v}
-            for knob, (settings, drop, mutate) in knobs.items():
-                as_it_is = knob == ("none" if name == "straight" else name)
-                briefly = sequence and not of_mission and knob not in SEQUENCE | CURVE
-                if as_it_is or briefly or (sequence and knob in NOT_IN_SEQUENCE):
-                    continue
+    for (name, sequence), knobs in ASKED.items():
+        for knob, (settings, drop, mutate) in knobs.items():
+            if knob != AS_IT_IS.get(name, name):
                 yield pytest.param(name, sequence, knob, settings, drop, mutate, id=f"{name}-{sequence}-{knob}")
 
 
@@ -156,7 +158,7 @@ def test_knob_beside_an_assessment_of_the_changed_case(results, tmp_path, name, 
     truth, damage = again["damage_per_km"].to_numpy(), points["damage_per_km"].to_numpy()
     assert not points["basis"].eq("recount").any()
     exact = points["basis"].eq("exact").to_numpy()
-    if knob in MISSION or (name == "straight" and knob in CURVE):
+    if knob in MISSION | WITHOUT or (name == "straight" and knob in CURVE):
         assert exact.all()
     np.testing.assert_allclose(damage[exact], truth[exact], rtol=1e-12)
     low, high = points["damage_per_km_low"].to_numpy(), points["damage_per_km_high"].to_numpy()
