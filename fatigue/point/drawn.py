@@ -17,7 +17,7 @@ from fatigue.report import figures, stress
 from fatigue.report.of_record import weights_of
 from fatigue.report.sections.point.detail import Detail, DetailedPoint, add_records
 from fatigue.report.sections.point.figures import SPECTRA_DRAWN, draw_history, draw_sn, draw_spectrum
-from fatigue.report.sections.point.worst_cycles import most_damaging
+from fatigue.report.sections.point.worst_cycles import leading_event, most_damaging
 from fatigue.report.variants import assumptions_of, how_often
 from fatigue.results import assessed
 
@@ -101,10 +101,11 @@ def _spectrum(inputs: Reopened, station: Station, face: int, cycles: pd.DataFram
 
 
 def _leading_event(inputs: Reopened, cycles: pd.DataFrame) -> str:
-    """The event, no sequence, that has the most of the damage of some cycles, each counted as often as it occurs."""
-    of_events = cycles[cycles["event"].isin(inputs.events)]
-    damage = how_often(of_events, weights_of(inputs.record)) * (of_events["damage"] / of_events["count"])
-    return str(damage.groupby(of_events["event"], sort=False).sum().idxmax())
+    """The event, no sequence, that has the most of the damage of some cycles."""
+    damage = cycles.groupby("event", sort=False)["damage"].sum().rename("damage_per_pass").reset_index()
+    leading = leading_event(damage, inputs.record)
+    assert leading is not None
+    return leading
 
 
 def _modal_stress(inputs: Reopened, station: Station, face: int) -> NDArray[np.float64]:
