@@ -68,7 +68,7 @@ def refuse(error: type[FatigueError], problems: Iterable[Problem]) -> None:
         raise error(*found)
 
 
-def no_threads(threads: object) -> Iterator[Problem]:
+def no_threads(threads: int | None) -> Iterator[Problem]:
     """Refusal of what is no number of threads; None is one for each processor core."""
     if threads is not None and not (isinstance(threads, Integral) and threads >= 1):
         yield Problem("bad_threads", "threads", f"{threads!r} is no number of threads", "Give 1 or more")

@@ -103,7 +103,7 @@ def test_a_folder_without_result_and_a_file_in_the_way(small_result, tmp_path):
     given = ("history", small_result, "--weld", "A", "-o", tmp_path / "a.csv")
     done = fatigue(*given)
     assert done.returncode == 3
-    assert "a.csv: is there already. Use --force to overwrite it." in done.stderr
+    assert "a.csv: is there already. Give another file with -o, or --force to overwrite it." in done.stderr
     assert (tmp_path / "a.csv").read_text() == "mine"
     assert fatigue(*given, "--force").returncode == 0
 

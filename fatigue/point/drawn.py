@@ -14,17 +14,17 @@ from fatigue.point.cycles import counted_point, cycle_frame
 from fatigue.point.found import FACES, Station
 from fatigue.point.reopened import Reopened, counted_load, event_numbers, forget, sampled_load
 from fatigue.report import figures, stress
-from fatigue.report.of_record import mode_names, target_of, weights_of
-from fatigue.report.sections.point.figures import MODES_DRAWN, MODES_MARKED, SPECTRA_DRAWN
-from fatigue.report.sections.point.worst_cycles import most_damaging
-from fatigue.report.variants import assumptions_of, how_often, laws_of
+from fatigue.report.of_record import weights_of
+from fatigue.report.sections.point.detail import Detail, DetailedPoint, add_records
+from fatigue.report.sections.point.figures import SPECTRA_DRAWN, draw_history, draw_sn, draw_spectrum
+from fatigue.report.sections.point.worst_cycles import leading_event, most_damaging
+from fatigue.report.variants import assumptions_of, how_often
 from fatigue.results import assessed
 
 PointFigure = Literal["history", "spectrum", "rainflow", "exceedance", "sn"]
 FigureName = Literal["lives", "weld", "history", "spectrum", "rainflow", "exceedance", "sn"]
 
 FIGURES: tuple[str, ...] = get_args(FigureName)
-DS_UNIT = "MPa mm<sup>−0.222</sup>"
 
 
 def draw_lives(welds: pd.DataFrame, target_km: float) -> go.Figure:
@@ -49,34 +49,27 @@ def draw_point(name: PointFigure, inputs: Reopened, station: Station, face: int,
     if not cycles["range_MPa"].max() > 0.0:
         what = "nothing changes its stress, so it has no cycles to be drawn"
         raise DataError(Problem("no_cycles", f"{station}, {FACES[face]} face", what, "Take another point or event"))
-    passes_per_km = weights_of(inputs.record)
+    record, passes_per_km = inputs.record, weights_of(inputs.record)
     if name == "history":
         return _history(inputs, station, face, cycles)
     if name == "spectrum":
         return _spectrum(inputs, station, face, cycles)
     if name == "exceedance":
         return figures.exceedance(cycles, {name: passes_per_km[name] for name in cycles["event"].unique()})
-    per_km = how_often(cycles, passes_per_km)
     if name == "rainflow":
-        return figures.rainflow_matrices(cycles, per_km)
-    used = assumptions_of(inputs.record, counted_point(inputs, station, face).rated.curve.name)
-    per_target = per_km * target_of(inputs.record)
-    unit = DS_UNIT if used.curve.applies == "dS" else "MPa"
-    return figures.sn_with_spectrum(cycles, per_target, laws_of(used), used.survival, unit)
+        return figures.rainflow_matrices(cycles, how_often(cycles, passes_per_km))
+    return draw_sn(record, cycles, assumptions_of(record, counted_point(inputs, station, face).rated.curve.name))
 
 
 def _history(inputs: Reopened, station: Station, face: int, cycles: pd.DataFrame) -> go.Figure:
     """Stress of a face over the event with the most damage among some cycles, its most damaging one close by."""
-    event, modal_stress = _leading_event(inputs, cycles), _modal_stress(inputs, station, face)
+    event, detail = _leading_event(inputs, cycles), Detail()
+    close_by = most_damaging(cycles, event, 1)
     load = counted_load(inputs, inputs.events.index(event))
-    record = _record(load)
-    leading = _leading_modes(stress.variance_shares(record, modal_stress), stress.DOMINANT_MODES)
-    envelope = stress.envelope(record, modal_stress)
-    ((start, end),) = most_damaging(cycles, event, 1)
-    close_by = stress.excerpts(record, modal_stress, start, end, leading)
+    add_records(detail, _record(load), DetailedPoint(_modal_stress(inputs, station, face), {}, None, event, close_by))
     forget(load)
-    names, _ = mode_names(inputs.record)
-    return figures.stress_history(envelope, close_by, names, figures.event_colours(inputs.events)[event])
+    assert detail.envelope is not None
+    return draw_history(inputs.record, detail.envelope, detail.excerpts)
 
 
 def _spectrum(inputs: Reopened, station: Station, face: int, cycles: pd.DataFrame) -> go.Figure:
@@ -88,9 +81,8 @@ def _spectrum(inputs: Reopened, station: Station, face: int, cycles: pd.DataFram
     """
     leading, modal_stress = _leading_event(inputs, cycles), _modal_stress(inputs, station, face)
     others = [event for event in inputs.events if event != leading and event in set(cycles["event"])]
-    names, natural = mode_names(inputs.record)
     spectra: list[stress.StressSpectrum] = []
-    marked: dict[str, tuple[float, float]] = {}
+    shares = np.zeros(len(modal_stress))
     case = inputs.body.case
     for event in (leading, *others[: SPECTRA_DRAWN - 1]):
         number = inputs.events.index(event)
@@ -100,27 +92,20 @@ def _spectrum(inputs: Reopened, station: Station, face: int, cycles: pd.DataFram
         if found is not None and case.mission.event[number].history is not None:
             spectra.append(found)
         if event == leading:
-            shares, numbers = stress.variance_shares(record, modal_stress), list(names)
-            modes = [(numbers[k], float(shares[k])) for k in _leading_modes(shares, MODES_DRAWN)]
-            normal = [(mode, share) for mode, share in modes if mode in natural][:MODES_MARKED]
-            marked = {f"mode {mode}, {natural[mode]:.4g} Hz": (natural[mode], share) for mode, share in normal}
+            shares = stress.variance_shares(record, modal_stress)
         forget(load)
     if not spectra:
         what, remedy = "no record is as long as a segment of a spectrum", "Shorten segment_s, or record longer"
         raise DataError(Problem("no_cycles", f"{station}, {FACES[face]} face", what, remedy))
-    return figures.stress_spectrum(spectra, figures.event_colours(inputs.events), marked, leading)
+    return draw_spectrum(inputs.record, spectra, shares, leading)
 
 
 def _leading_event(inputs: Reopened, cycles: pd.DataFrame) -> str:
-    """The event, no sequence, that has the most of the damage of some cycles, each counted as often as it occurs."""
-    of_events = cycles[cycles["event"].isin(inputs.events)]
-    damage = how_often(of_events, weights_of(inputs.record)) * (of_events["damage"] / of_events["count"])
-    return str(damage.groupby(of_events["event"], sort=False).sum().idxmax())
-
-
-def _leading_modes(shares: NDArray[np.float64], most: int) -> list[int]:
-    """Rows of the coordinates with the largest shares of the variance, the largest first."""
-    return [int(row) for row in np.argsort(-np.abs(shares), kind="stable")[:most]]
+    """The event, no sequence, that has the most of the damage of some cycles."""
+    damage = cycles.groupby("event", sort=False)["damage"].sum().rename("damage_per_pass").reset_index()
+    leading = leading_event(damage, inputs.record)
+    assert leading is not None
+    return leading
 
 
 def _modal_stress(inputs: Reopened, station: Station, face: int) -> NDArray[np.float64]:

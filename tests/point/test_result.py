@@ -14,6 +14,7 @@ import fatigue
 from fatigue.errors import CaseError, DataError
 from fatigue.point import result as module
 from fatigue.point.drawn import FIGURES
+from fatigue.report.wording import life, number
 from tests.older_result import without_hashes
 from tests.point.cases import plain, result_of
 from tests.small_case import STEP
@@ -46,7 +47,8 @@ def test_a_notebook_shows_verdict_and_worst_welds(opened):
     assert ("miss the target of" in html) == (not opened.fulfilled)
     first, second = opened.welds["weld"]
     assert 0 < html.index(f">{first}<") < html.index(f">{second}<")
-    assert f">{opened.welds['utilisation'].iloc[0]:.3g}<" in html
+    assert f">{number(opened.welds['utilisation'].iloc[0])}<" in html
+    assert f">{life(opened.welds['life_km'].iloc[0])}<" in html
 
 
 def test_names_are_no_markup_in_a_notebook(tmp_path):

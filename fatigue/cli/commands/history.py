@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from fatigue.cli.arguments import CASE, FOLDER, as_json, no_lock
-from fatigue.cli.early import refuse_existing, refuse_missing_result
+from fatigue.cli.early import refuse_missing_result
 from fatigue.cli.main import cli
 from fatigue.cli.output import print_json, say
 from fatigue.cli.progress import narrated
@@ -64,9 +64,6 @@ def history(
     if output.suffix.lower() not in ENDINGS:
         raise click.BadParameter(f"'{output}' does not end in {', '.join(ENDINGS)}.", param_hint="-o")
     refuse_missing_result(folder, case_file, no_lock=no_lock)
-    refuse_existing(
-        output if output.is_file() else None, force=force, what="is there already", remedy="Use --force to overwrite it"
-    )
     from fatigue.point.written import write_history
     from fatigue.results.outputs import damage_told
 

@@ -21,9 +21,9 @@ from fatigue.point.reopened import Reopened, solved_station
 from fatigue.report.checks import ShownChecks
 from fatigue.report.inputs import FoundInputs
 from fatigue.report.merged_cycles import MOST_ROWS, ShownPoint, merged_cycles
-from fatigue.report.of_record import Record, weights_of
+from fatigue.report.of_record import Record, events_of, weights_of
 from fatigue.report.sections.point.detail import COMPONENTS, Detail, DetailedPoint, point_details
-from fatigue.report.sections.point.worst_cycles import most_damaging
+from fatigue.report.sections.point.worst_cycles import leading_event, most_damaging
 from fatigue.report.sections.why import Why
 from fatigue.report.variants import assumptions_of, law_of
 from fatigue.results import read_rows, read_table, read_welds, row_count, rows_of_welds
@@ -205,11 +205,10 @@ def listed(cycles: pd.DataFrame) -> pd.DataFrame:
 
 def _event_of(damage: pd.DataFrame, record: Record) -> str:
     """The event that damages most, of those with a record; where none does, the one with the largest range."""
-    events = [event["event"] for event in record["mission"]["events"]]
-    rows = damage[damage["event"].isin(events)]
-    weighted = rows["damage_per_pass"] * rows["event"].map(weights_of(record)).astype(float)
-    deciding = weighted if weighted.max() > 0.0 else rows["max_range_MPa"]
-    return str(rows["event"].loc[deciding.idxmax()])
+    rows = damage[damage["event"].isin([event["event"] for event in events_of(record)])]
+    if rows["damage_per_pass"].max() > 0.0 and (leading := leading_event(rows, record)):
+        return leading
+    return str(rows.loc[rows["max_range_MPa"].idxmax(), "event"])
 
 
 def _spectral(points: Points, load: EventLoad) -> tuple[Floats, float] | None:

@@ -5,7 +5,7 @@ import pandas as pd
 from fatigue.report.inputs import FoundInputs
 from fatigue.report.result import ShownResult
 from fatigue.report.sections.point.detail import COMPONENTS, Detail, DetailedPoint, point_details
-from fatigue.report.sections.point.worst_cycles import OF_CYCLES, most_damaging
+from fatigue.report.sections.point.worst_cycles import OF_CYCLES, leading_event, most_damaging
 
 
 def weld_details(result: ShownResult, inputs: FoundInputs) -> tuple[dict[str, Detail], dict[str, float]]:
@@ -50,7 +50,5 @@ def _leading_events(result: ShownResult) -> dict[str, str | None]:
     for weld, name in result.assessed.set_index("weld")["governing_event"].items():
         found[str(weld)] = None if pd.isna(name) else str(name)
         if not pd.isna(name) and name not in known:
-            of_weld = result.damage[(result.damage["weld"] == weld) & result.damage["event"].isin(known)]
-            weighted = of_weld["damage_per_pass"] * of_weld["event"].map(result.passes_per_km)
-            found[str(weld)] = None if weighted.empty else str(of_weld.loc[weighted.idxmax(), "event"])
+            found[str(weld)] = leading_event(result.damage[result.damage["weld"] == weld], result.record)
     return found

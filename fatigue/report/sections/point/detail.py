@@ -87,7 +87,7 @@ def point_details(
                 if spectrum is not None:
                     details[name].spectra.append(spectrum)
                 if point.governing_event == event.name:
-                    _add_records(details[name], of_event, point)
+                    add_records(details[name], of_event, point)
     return details, steps
 
 
@@ -100,7 +100,7 @@ def upper_hz(record: Record, inputs: FoundInputs, step: float) -> float:
     return default_upper_hz(step, float(vibrating.max()) if vibrating.size else None)
 
 
-def _add_records(detail: Detail, record: EventRecord, point: DetailedPoint) -> None:
+def add_records(detail: Detail, record: EventRecord, point: DetailedPoint) -> None:
     """Add what is shown of the governing event: stresses along the line, the share of the modes, the history."""
     detail.deviation = {name: stress.deviations(record, modal_stress) for name, modal_stress in point.stations.items()}
     detail.variance_share = stress.variance_shares(record, point.modal_stress)

@@ -1,7 +1,10 @@
 """The figures of one point: its cycles, its records, and what a diagnosis knows of its damage."""
 
+from collections.abc import Sequence
+
 import numpy as np
 import pandas as pd
+import plotly.graph_objects as go
 from numpy.typing import NDArray
 
 from fatigue.report import figures, wording
@@ -9,6 +12,7 @@ from fatigue.report.of_record import Record, coordinates_of, events_of, mode_nam
 from fatigue.report.sections.embed import Figures, Shown
 from fatigue.report.sections.point.detail import Detail
 from fatigue.report.sections.why import Why, band_shares, mode_shares
+from fatigue.report.stress import Envelope, Excerpt, StressSpectrum
 from fatigue.report.variants import Assumptions, how_often, laws_of
 
 SPECTRA_DRAWN, MODES_DRAWN, MODES_MARKED = 6, 8, 4
@@ -23,10 +27,7 @@ def cycle_figures(record: Record, name: str, cycles: pd.DataFrame, used: Assumpt
         return []
     passes_per_km = weights_of(record)
     per_km = how_often(cycles, passes_per_km)
-    unit = "MPa mm<sup>−0.222</sup>" if used.curve.applies == "dS" else "MPa"
-    target_km = target_of(record)
-    spectrum = figures.sn_with_spectrum(cycles, per_km * target_km, laws_of(used), used.survival, unit)
-    of_target = f"{name}: S-N curve and the cycles of {wording.km(target_km)}"
+    of_target = f"{name}: S-N curve and the cycles of {wording.km(target_of(record))}"
     return [
         figs.add(
             "matrix",
@@ -35,8 +36,15 @@ def cycle_figures(record: Record, name: str, cycles: pd.DataFrame, used: Assumpt
             wide=True,
         ),
         figs.add("exceedance", figures.exceedance(cycles, passes_per_km), f"{name}: stress ranges in 1e6 km"),
-        figs.add("sn", spectrum, of_target),
+        figs.add("sn", draw_sn(record, cycles, used), of_target),
     ]
+
+
+def draw_sn(record: Record, cycles: pd.DataFrame, used: Assumptions) -> go.Figure:
+    """The S-N curve of a point and the spectrum of its cycles up to the target."""
+    per_target = how_often(cycles, weights_of(record)) * target_of(record)
+    unit = "MPa mm<sup>−0.222</sup>" if used.curve.applies == "dS" else "MPa"
+    return figures.sn_with_spectrum(cycles, per_target, laws_of(used), used.survival, unit)
 
 
 def record_figures(record: Record, detail: Detail, event: str | None, figs: Figures, *, modes_too: bool) -> list[Shown]:
@@ -54,12 +62,17 @@ def history_figure(record: Record, detail: Detail, event: str, figs: Figures) ->
     """Stress over the whole record of an event, and close by at its most damaging cycle."""
     if detail.envelope is None:
         return []
-    names, _ = mode_names(record)
-    largest = detail.excerpts[0] if detail.excerpts else []
-    history = figures.stress_history(detail.envelope, largest, names, _colours(record)[event])
-    close_by = ", and close by at its most damaging cycle" if largest else ""
+    history = draw_history(record, detail.envelope, detail.excerpts)
+    close_by = ", and close by at its most damaging cycle" if detail.excerpts else ""
     caption = f"Stress in event {wording.short(event)}{close_by}"
     return [figs.add("history", history, caption, wide=True, of_curve=False)]
+
+
+def draw_history(record: Record, envelope: Envelope, excerpts: Sequence[Sequence[Excerpt]]) -> go.Figure:
+    """Stress over a record, and close by at the first of some cycles."""
+    names, _ = mode_names(record)
+    first = excerpts[0] if excerpts else ()
+    return figures.stress_history(envelope, first, names, _colours(record)[envelope.event])
 
 
 def variance_figure(record: Record, detail: Detail, event: str, whose: str, figs: Figures) -> list[Shown]:
@@ -78,13 +91,20 @@ def spectrum_figure(record: Record, detail: Detail, event: str, figs: Figures) -
     """Spectra of the stress, with the normal modes marked that lead in its variance; none where nothing varies."""
     if detail.variance_share is None or not detail.spectra or np.isnan(detail.variance_share).all():
         return []
-    _, natural = mode_names(record)
-    parts = _leading(record, detail.variance_share)
-    drawn = sorted(detail.spectra, key=lambda s: s.event != event)[:SPECTRA_DRAWN]
-    marked = {f"mode {m}, {natural[m]:.4g} Hz": (natural[m], part) for m, part in parts.items() if m in natural}
-    spectrum = figures.stress_spectrum(drawn, _colours(record), dict(list(marked.items())[:MODES_MARKED]), event)
+    spectrum = draw_spectrum(record, detail.spectra, detail.variance_share, event)
     caption = "Stress spectrum, the leading normal modes, and where the variance lies"
     return [figs.add("psd", spectrum, caption, of_curve=False)]
+
+
+def draw_spectrum(
+    record: Record, spectra: Sequence[StressSpectrum], variance_share: NDArray[np.float64], event: str
+) -> go.Figure:
+    """Spectra of the stress, that of an event first, with the normal modes marked that lead in its variance there."""
+    _, natural = mode_names(record)
+    parts = _leading(record, variance_share)
+    drawn = sorted(spectra, key=lambda s: s.event != event)[:SPECTRA_DRAWN]
+    marked = {f"mode {m}, {natural[m]:.4g} Hz": (natural[m], part) for m, part in parts.items() if m in natural}
+    return figures.stress_spectrum(drawn, _colours(record), dict(list(marked.items())[:MODES_MARKED]), event)
 
 
 def _colours(record: Record) -> dict[str, str]:
