@@ -15,6 +15,18 @@ from fatigue.shown import shortened, visible
 
 MOST_TOLD = 40  # welds in the text
 NAME = 34  # letters of a weld
+MEANING = {
+    "exact": "every cycle does a known multiple of what it did: sums of stored damages",
+    "histogram": "stored ranges, in classes, entered into the new curve: between two proven bounds",
+    "bound": "the damage is at most, the life at least this: a multiple that no cycle exceeds; the point was not counted "
+    "or has no stored ranges",
+    "recount": "nothing stored says enough: no number is given",
+    "counted": "counted again from the input files",
+}
+HELD = (
+    "All else is as it was assessed. From .. to bounds what the stored numbers cannot tell; it is no scatter of load or "
+    "strength."
+)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -86,7 +98,7 @@ class WhatIf:
     def as_text(self) -> str:
         """Text for people."""
         parts = [f"{visible(self.title)}: what if", *(f"  {visible(one)}" for one in self.changes), "", *self._said()]
-        parts += ["", *self._table()]
+        parts += ["", *self._table(), "", *self._meanings()]
         if self.written:
             parts += ["", f"written: {', '.join(self.written)}"]
         return "\n".join(parts)
@@ -109,12 +121,18 @@ class WhatIf:
         yield f"  {'weld':{NAME}}{lives}  {'verdict':12}basis"
         for row in self.welds.head(MOST_TOLD).itertuples():
             band = f"{number(row.life_km_low)} .. {number(row.life_km_high)}"
-            band = "" if row.life_km_low == row.life_km_high else band
+            band = band if row.life_km_low < row.life_km_high else ""
             name = shortened(visible(row.weld), NAME - 1)
             line = f"  {name:{NAME}}{number(row.life_km_before):>12}{number(row.life_km):>12}  {band:>22}  "
             yield f"{line}{_three(row.life_ratio):>6}  {_words(row.verdict):12}{row.basis}"
         if (more := len(self.welds) - MOST_TOLD) > 0:
             yield f"  and {more} more, which do not miss their target or are further from it"
+
+
+    def _meanings(self) -> Iterator[str]:
+        """What the bases mean that the numbers rest on, and what is held."""
+        yield from (f"{basis}: {MEANING[basis]}" for basis in self.of_basis)
+        yield HELD
 
 
 def _words(verdict: str) -> str:
