@@ -12,7 +12,6 @@ from fatigue.decide.compare.words import SAME, is_same, times
 from fatigue.report.wording import km, listed
 from fatigue.shown import few, shortened
 
-
 MOST = {"loses": "The largest loss is that of", "gains": "The largest gain is that of"}
 
 

@@ -79,7 +79,7 @@ class FleetFound:
 
     @property
     def doubt(self) -> str:
-        """What the standard deviations of the damage leave out, empty where they leave nothing out or there are none."""
+        """What the standard deviations of the damage leave out; empty where there are none, or they leave nothing out."""
         if not self.counted_as_exact or not any(row.of == "unit" for row in self.variance):
             return ""
         names = few([visible(name) for name in self.counted_as_exact])

@@ -18,14 +18,14 @@ NAME = 34  # letters of a weld
 MEANING = {
     "exact": "every cycle does a known multiple of what it did: sums of stored damages",
     "histogram": "stored ranges, in classes, entered into the new curve: between two proven bounds",
-    "bound": "the damage is at most, the life at least this: a multiple that no cycle exceeds; the point was not counted "
-    "or has no stored ranges",
+    "bound": "damage at most, life at least this: a multiple that no cycle exceeds, of a point that was not counted or "
+    "has no stored ranges",
     "recount": "nothing stored says enough: no number is given",
     "counted": "counted again from the input files",
 }
 HELD = (
-    "All else is as it was assessed. From .. to bounds what the stored numbers cannot tell; it is no scatter of load or "
-    "strength."
+    "All else is as it was assessed. From .. to bounds what the stored numbers cannot tell; "
+    "it is no scatter of load or strength."
 )
 
 
@@ -127,7 +127,6 @@ class WhatIf:
             yield f"{line}{_three(row.life_ratio):>6}  {_words(row.verdict):12}{row.basis}"
         if (more := len(self.welds) - MOST_TOLD) > 0:
             yield f"  and {more} more, which do not miss their target or are further from it"
-
 
     def _meanings(self) -> Iterator[str]:
         """What the bases mean that the numbers rest on, and what is held."""

@@ -27,7 +27,7 @@ from fatigue.cli.progress import narrated
 @click.option("--case", "case_file", type=CASE, help="Case file, if it is not where the result says.")
 @click.option("--threads", type=click.IntRange(min=1), help="Worker threads; default: one per processor core.")
 @no_lock
-@click.option("--exit-zero", is_flag=True, help="Exit 0 although nothing meets the target.")
+@click.option("--exit-zero", is_flag=True, help="Exit 0 although of a weld nothing meets the target.")
 @as_json
 @click.pass_obj
 def backsolve(
@@ -47,7 +47,7 @@ def backsolve(
     """Say what load, curve, mileage, share or plate thickness just meets the target, of every weld and of the body.
 
     Every answer is put back: the utilisation with it, computed forward, is printed as its distance from 1. Exit code 1:
-    nothing of what was asked for meets the target.
+    of a weld nothing of what was asked for meets the target.
 
     \b
     Examples:

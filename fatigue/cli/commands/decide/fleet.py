@@ -32,8 +32,8 @@ def fleet(
     """Sum the damage of units that run different distances under the conditions of several results.
 
     FLEET is a fleet.toml: conditions, each an event of a result folder, and a table of km per unit, condition and year.
-    Prints lives in years by unit, percentiles over the units, and what makes them differ. Nothing is counted again. Exit
-    code 1: a unit misses target_years.
+    Prints lives in years by unit, percentiles over the units, and what makes them differ. Nothing is counted again.
+    Exit code 1: a unit misses target_years.
 
     \b
     Examples:
