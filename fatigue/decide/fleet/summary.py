@@ -79,7 +79,7 @@ class FleetFound:
 
     @property
     def doubt(self) -> str:
-        """What the standard deviations of the damage leave out; empty where there are none, or they leave nothing out."""
+        """What the standard deviations of the damage leave out; empty where there are none, or nothing is left out."""
         if not self.counted_as_exact or not any(row.of == "unit" for row in self.variance):
             return ""
         names = few([visible(name) for name in self.counted_as_exact])
