@@ -16,6 +16,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from fatigue.cli import cli
+from fatigue.cli.main import SECTIONS
 from tests.command_line import ROOT, assess, fatigue, fatigue_alone
 from tests.small_case import sine_only, small_case
 
@@ -47,6 +48,14 @@ def test_every_command_has_help_with_an_example(name):
 def test_every_command_is_in_the_readme(name):
     """What the program can do, the README names."""
     assert f"fatigue {name}" in (ROOT / "README.md").read_text()
+
+
+def test_every_command_is_in_one_section_and_its_short_help_is_whole():
+    """The list of commands has each once, in 80 columns, and no help is cut."""
+    assert sorted(name for names in SECTIONS.values() for name in names) == sorted(cli.commands)
+    told = cli.get_help(click.Context(cli, info_name="fatigue", terminal_width=80))
+    for name, command in cli.commands.items():
+        assert f"  {name:{max(map(len, cli.commands))}}  {command.short_help}\n" in told
 
 
 def test_version_and_help():

@@ -17,6 +17,8 @@ def test_answers_are_told_and_written(small_result, tmp_path):
         "backsolve", small_result, "--for", "share:noise", "--target", "1e15", "--json", "-o", tmp_path / "out"
     )
     assert done.returncode == 1, done.stderr
+    again = ("backsolve", small_result, "--for", "share:noise", "--target", "1e15", "--exit-zero")
+    assert fatigue(*again).returncode == 0
     found = json.loads(done.stdout)
     assert found["solved"] is False
     assert found["rows"][0]["answer"] is None

@@ -65,7 +65,11 @@ def test_a_page(result, tmp_path):
         (("--weld", "C"), 3, "Name one of 'A', 'B'"),
         (("--weld", "A", "--order", "8"), 3, "has no order 8. Take one of its orders: 1, 2, 3, 4, 5, 6, 7"),
         (("--weld", "A", "--node", "203"), 3, "has no node 203, which is of 'B'"),
-        (("--weld", "A", "-o", "point.docx"), 3, "is not written as '.docx'. End it in .html for the page or in .png"),
+        (
+            ("--weld", "A", "-o", "point.docx"),
+            2,
+            "'point.docx' does not end in .html or .png; a PDF is printed from the page",
+        ),
         (("--weld", "A", "--case", "nowhere.toml"), 3, "nowhere.toml"),
     ],
 )

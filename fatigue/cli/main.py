@@ -18,9 +18,16 @@ from fatigue.stages import STAGES
 
 EXIT_CODES = """
 \b
-Exit codes: 0 done; 1 done, but a weld misses its target; 2 wrong usage;
+Exit codes: 0 done; 1 done, but a target is missed; 2 wrong usage;
 3 bad case or data; 4 numerical failure or no memory; 130 interrupted.
 """
+SECTIONS = {
+    "Begin": ("example", "schema", "convert", "welds", "tension-patch", "reduce", "synth"),
+    "Assess": ("check", "assess", "show", "report", "verify"),
+    "Understand": ("diagnose", "point", "history", "spectra", "ride", "basis", "shift"),
+    "Decide": ("compare", "whatif", "backsolve", "fleet", "bench"),
+    "Measure and study": ("gauges", "study"),
+}
 GOES_ON, AGAIN = "the same command goes on from here", "give the same command again"
 
 
@@ -33,7 +40,16 @@ class _Interrupted(Exception):
 
 
 class Commands(click.Group):
-    """The group of all commands, which is interrupted in the words of the program."""
+    """The group of all commands, listed by what they are for; it is interrupted in the words of the program."""
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write the commands section by section, their helps in one column."""
+        width = max(map(len, self.commands))
+        for title, names in SECTIONS.items():
+            with formatter.section(title):
+                formatter.write_dl(
+                    [(name.ljust(width), self.commands[name].get_short_help_str(formatter.width)) for name in names]
+                )
 
     def invoke(self, ctx: click.Context) -> Any:
         """Run the command that is asked for."""

@@ -91,12 +91,13 @@ def find_station(
         raise DataError(_unknown_weld(folder, str(weld)))
     points = read_rows(folder, "nodes", rows, _COLUMNS).to_pandas().assign(row=rows)
     points["screened"] = points["screened"].fillna("") != ""
-    found = points
+    found, given = points, ""
     for name, wanted in wanted_of.items():
         if wanted is not None:
             before, found = found, found[found[name] == wanted]
             if found.empty:
-                raise DataError(_unknown_place(folder, name, wanted, before))
+                raise DataError(_unknown_place(folder, name, wanted, before, given))
+            given += f", {name} {wanted}"
     if order is None and node is None:
         found = _worst(folder, found, of_weld=part is None)
     stations = found.drop_duplicates(["part", "order"])
@@ -181,13 +182,13 @@ def meant(name: str, known: Sequence[str]) -> str:
     return f"Name one of {few([_quoted(one) for one in known], MOST_NAMED)}"
 
 
-def _unknown_place(folder: Path, name: str, wanted: int, among: pd.DataFrame) -> Problem:
-    """Refusal of a part, order or node that some points do not have."""
+def _unknown_place(folder: Path, name: str, wanted: int, among: pd.DataFrame, given: str) -> Problem:
+    """Refusal of a part, order or node that some points do not have: those of the weld, and of what else is given."""
     weld = str(among["weld"].iloc[0])
     there = sorted(among[name].unique().tolist())
     numbers = few(there, MOST_NAMED) if name == "node" or len(there) <= MOST_NAMED else f"{there[0]} to {there[-1]}"
-    where = f"{folder}: weld {_quoted(weld)}"
-    if name == "node" and (others := _welds_with(folder, wanted, weld)):
+    where = f"{folder}: weld {_quoted(weld)}{given}"
+    if name == "node" and not given and (others := _welds_with(folder, wanted, weld)):
         what = f"has no node {wanted}, which is of {few([_quoted(one) for one in others])}"
         return Problem("unknown_point", where, what, f"Name that weld, or one of its own nodes: {numbers}")
     return Problem("unknown_point", where, f"has no {name} {wanted}", f"Take one of its {name}s: {numbers}")

@@ -185,11 +185,15 @@ class Summary:
         for name, column in (("50_percent_km", "life_km_p50"), ("90_percent_km", "life_km_p90")):
             table[name] = [math.nan if band is None else band.lives_km[column] for band in found]
         columns = list(table) if any(band is not None and band.has_lives for band in found) else list(table)[:3]
+        of_line = [math.nan if band is None else band.line_survival for band in found]
+        if not all(map(math.isnan, of_line)):
+            table["line_survival_at_target"] = of_line
+            columns.append("line_survival_at_target")
         reasons = dict.fromkeys(band.reason for band in found if band is not None and band.reason)
         others = len(self.welds) - len(shown)
         return [
             "",
-            "How sure the lives are: another record, and the share of welds that reach a life by record and S-N curve",
+            "How sure the lives are: another record; lives that a share reaches, by record, S-N curve and damage sum",
             _text_table(pd.DataFrame(table), columns),
             *([f"and {others} others, see band.parquet"] if others else []),
             *(f"{SHORT_REASONS[reason]}: {REASONS[reason]}" for reason in reasons),

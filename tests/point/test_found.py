@@ -88,7 +88,7 @@ def test_a_part_is_needed_only_where_two_share_the_order(corner):
         ({"weld": "A", "part": 3, "order": 3}, "weld 'A': has no part 3. Take one of its parts: 1"),
         ({"weld": "A", "node": 203}, "has no node 203, which is of 'B'. Name that weld, or one of its own nodes: 100"),
         ({"weld": "A", "node": 7}, "weld 'A': has no node 7. Take one of its nodes: 100, 101"),
-        ({"weld": "A", "node": 101, "order": 5}, "weld 'A': has no node 101. Take one of its nodes: 104"),
+        ({"weld": "A", "node": 101, "order": 5}, "weld 'A', order 5: has no node 101. Take one of its nodes: 104"),
         ({"weld": "A\nB"}, r"the result has no weld 'A\\nB'"),
     ],
 )

@@ -15,7 +15,7 @@ from fatigue.cli.output import print_json, print_warnings, say
 from fatigue.cli.progress import narrated
 
 
-@cli.command()
+@cli.command(short_help="Read and check a case and all its files; assess nothing.")
 @click.argument("case_file", metavar="CASE", type=CASE)
 @strict
 @as_json
@@ -43,7 +43,7 @@ def check(options: dict[str, bool], case_file: Path, strict: bool, as_json: bool
     print_warnings(found.warnings, "--json lists them")
 
 
-@cli.command()
+@cli.command(short_help="Assess every point of every weld of a case.")
 @click.argument("case_file", metavar="CASE", type=CASE)
 @click.option(
     "-o", "--output", type=FOLDER, required=True, metavar="DIR", help="Result folder, made if it is not there."

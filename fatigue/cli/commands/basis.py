@@ -12,7 +12,7 @@ from fatigue.cli.output import print_json, print_warnings, say
 from fatigue.cli.progress import narrated
 
 
-@cli.command()
+@cli.command(short_help="Is the modal basis complete enough for these welds?")
 @click.argument("case_file", metavar="CASE", type=CASE)
 @click.argument("other_case", metavar="[OTHER_CASE]", type=CASE, required=False)
 @click.option("-o", "--output", type=FOLDER, metavar="DIR", help="Folder for tables and page, made if not there.")

@@ -13,7 +13,7 @@ from fatigue.cli.progress import is_quiet, narrated
 from fatigue.stages import stage
 
 
-@cli.command()
+@cli.command(short_help="Write the shipped car body, a case in two variants.")
 @click.argument("folder", metavar="DIR", type=FOLDER)
 @click.option("--templates", is_flag=True, help="Instead, tables to fill in from a standard: EN 17149-3, DVS 1608.")
 @click.option("--force", is_flag=True, help="Overwrite files of the same names.")
@@ -30,7 +30,7 @@ def example(folder: Path, templates: bool, force: bool) -> None:
         say(file)
 
 
-@cli.command()
+@cli.command(short_help="Write a synthetic case of any size.")
 @click.argument("folder", metavar="DIR", type=FOLDER)
 @click.option("--nodes", type=click.IntRange(min=10), default=10_000, show_default=True, help="Weld nodes.")
 @click.option("--modes", type=click.IntRange(min=2), default=60, show_default=True, help="Modes.")
@@ -58,7 +58,7 @@ def synth(
     say(case_file)
 
 
-@cli.command()
+@cli.command(short_help="Print the JSON Schema of case.toml, for editors.")
 def schema() -> None:
     """Print the JSON Schema of case.toml, for editors that complete and check it.
 

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 _COLOUR = {"red": "red", "amber": "yellow", "green": "green"}
 
 
-@cli.command()
+@cli.command(short_help="Turn FE results and simulation exports into a first case.")
 @asking_for(ConvertOptions, "options")
 @as_json
 def convert(options: ConvertOptions, as_json: bool) -> None:

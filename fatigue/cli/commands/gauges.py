@@ -22,7 +22,7 @@ into = click.option(
 )
 
 
-@cli.group()
+@cli.group(short_help="Virtual strain gauges, and measured strain beside them.")
 def gauges() -> None:
     """Put virtual strain gauges on the body and see what they read; lay a measurement beside it.
 

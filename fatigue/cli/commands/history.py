@@ -13,7 +13,7 @@ from fatigue.cli.progress import narrated
 ENDINGS = (".csv", ".parquet", ".mat")
 
 
-@cli.command()
+@cli.command(short_help="Write the stress over time at any point.")
 @click.argument("folder", metavar="DIR", type=FOLDER)
 @click.option("--weld", required=True, help="Weld line.")
 @click.option("--order", type=int, help="Position along the line; without it and --node the weld's worst point.")

@@ -10,8 +10,10 @@ from fatigue.cli.main import cli
 from fatigue.cli.output import print_json, say
 from fatigue.cli.progress import narrated
 
+ENDINGS = (".html", ".png")
 
-@cli.command()
+
+@cli.command(short_help="Show any point as the report shows worst points.")
 @click.argument("folder", metavar="DIR", type=FOLDER)
 @click.option("--weld", required=True, help="Weld line.")
 @click.option("--order", type=int, help="Position along the line; without it and --node the weld's worst point.")
@@ -60,6 +62,9 @@ def point(
       fatigue point result --weld W2_hanger1_out --order 3 --surface bottom -o point.html
       fatigue point result --weld W2_hanger1_out --node 12345 -o point.png
     """
+    if output is not None and output.suffix.lower() not in ENDINGS:
+        told = f"'{output}' does not end in {' or '.join(ENDINGS)}; a PDF is printed from the page, by any browser."
+        raise click.BadParameter(told, param_hint="-o")
     refuse_missing_result(folder, case_file, no_lock=no_lock)
     from fatigue.point.page.story import point as run
     from fatigue.results.outputs import damage_told

@@ -14,7 +14,7 @@ from fatigue.cli.progress import narrated
 FILE = click.Path(path_type=Path)
 
 
-@cli.command()
+@cli.command(short_help="Reduce a finite element body to modes and weld forces.")
 @click.argument("model", metavar="MODEL", type=FILE)
 @click.option(
     "--interface",

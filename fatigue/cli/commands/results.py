@@ -17,7 +17,7 @@ from fatigue.errors import DataError, refuse
 log = logging.getLogger(__name__)
 
 
-@cli.command()
+@cli.command(short_help="Print the welds and the worst points of a result.")
 @click.argument("folder", metavar="DIR", type=FOLDER)
 @click.option("--top", type=click.IntRange(min=1), default=10, show_default=True, help="How many points to show.")
 @click.option("--weld", "welds", multiple=True, help="Only this weld; may be given several times.")
@@ -44,7 +44,7 @@ def show(folder: Path, top: int, welds: tuple[str, ...], as_json: bool) -> None:
         print_json(answer)
 
 
-@cli.command()
+@cli.command(short_help="Write the report again; PDF, workbook and CSV as well.")
 @click.argument("folder", metavar="DIR", type=FOLDER)
 @click.option("--pdf", is_flag=True, help="Print report.pdf as well, with an installed Chromium, Chrome or Edge.")
 @click.option("--xlsx", is_flag=True, help="Write nodes.xlsx as well (package `xlsxwriter`).")
@@ -87,7 +87,7 @@ def report(
     refuse(DataError, done.problems)
 
 
-@cli.command()
+@cli.command(short_help="What makes the damage: event, mode, band, place; and levers.")
 @click.argument("folder", metavar="DIR", type=FOLDER)
 @click.option("--case", "case_file", type=CASE, help="Case file, if it is not where the result says.")
 @click.option(
@@ -160,7 +160,7 @@ def diagnose(
         say(found.as_text())
 
 
-@cli.command()
+@cli.command(short_help="Block programme for a test bench with the same damage.")
 @click.argument("folder", metavar="DIR", type=FOLDER)
 @click.option(
     "--points",

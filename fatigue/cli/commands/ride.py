@@ -12,7 +12,7 @@ from fatigue.cli.output import print_json, say
 from fatigue.cli.progress import narrated
 
 
-@cli.command()
+@cli.command(short_help="What channels beside the modes say: hunting, alarm, comfort.")
 @click.argument("folder", metavar="DIR", type=FOLDER)
 @click.option("--case", "case_file", type=CASE, help="Case file, if it is not where the result says.")
 @click.option("--threads", type=click.IntRange(min=1), help="Worker threads; default: one per processor core.")

@@ -18,7 +18,7 @@ log = logging.getLogger(__name__)
 LARGEST = "largest"
 
 
-@cli.command()
+@cli.command(short_help="Life against the frequency or damping of a mode.")
 @click.argument("folder", metavar="DIR", type=FOLDER)
 @click.option(
     "--mode",

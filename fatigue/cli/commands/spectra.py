@@ -16,7 +16,7 @@ FILE = click.Path(path_type=Path)
 WORST = "worst"
 
 
-@cli.command()
+@cli.command(short_help="Load spectra of points and of the loads themselves.")
 @click.argument("folder", metavar="DIR", type=FOLDER)
 @click.option(
     "--points",

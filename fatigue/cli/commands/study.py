@@ -18,7 +18,7 @@ Numbers: TypeAlias = tuple[float, ...]
 SETTINGS = ("hard", "mid", "soft", "long_wheelbase")
 
 
-@cli.group()
+@cli.group(short_help="Study a vehicle: its stability, and variants side by side.")
 def study() -> None:
     """Study a vehicle: its stability over speed and conicity, and what its variants do to the lives of welds.
 

@@ -12,7 +12,7 @@ from fatigue.cli.progress import narrated
 from fatigue.stages import stage
 
 
-@cli.command()
+@cli.command(short_help="Check the program, or recount points of a result.")
 @click.option(
     "--results", "folder", type=FOLDER, metavar="DIR", help="Recount points of this result from its input files."
 )

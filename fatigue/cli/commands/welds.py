@@ -15,7 +15,7 @@ from fatigue.shown import visible
 from fatigue.stages import stage
 
 
-@cli.command()
+@cli.command(short_help="Find the weld lines of a mesh; write the register to edit.")
 @click.argument("mesh", metavar="MODEL", type=FILE)
 @click.option("--units", default="mm-t-s", show_default=True, help="Unit system of the model: mm-t-s, m-kg-s ...")
 @click.option("-o", "--output", type=FILE, help="Register (CSV) to write, to be edited and given back with --register.")
@@ -73,7 +73,7 @@ def welds(
         say(f"{row.status:9} {row.kind:8} {row.nodes:5} nodes {row.length:9.1f} mm  {visible(row.weld + reason)}")
 
 
-@cli.command("tension-patch")
+@cli.command("tension-patch", short_help="Find the sign of the forces of a solver.")
 @click.argument("file", metavar="FILE", type=FILE)
 @click.option("--results", is_flag=True, help="FILE holds the grid point forces of the patch: tell their sign.")
 @click.option("--force", is_flag=True, help="Overwrite an existing deck.")

@@ -22,6 +22,7 @@ _VERDICT = "the verdict only"
 _ASIDE = "nothing of the life: what is looked at or kept beside it"
 _BESIDE = (
     "histogram",
+    "life_band",
     "cycles_kept_from_utilisation",
     "spectrum",
     "reversals",

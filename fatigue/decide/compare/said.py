@@ -12,6 +12,8 @@ from fatigue.decide.compare.words import SAME, is_same, times
 from fatigue.report.wording import life_km, listed
 from fatigue.shown import few, shortened
 
+MOST = {"loses": "The largest loss is that of", "gains": "The largest gain is that of"}
+
 
 def gains(pair: Pair) -> tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame]:
     """Welds that lose life, those that gain some, the largest change first, and those that last as long."""
@@ -36,7 +38,7 @@ def sentences(pair: Pair) -> Iterator[str]:
         if len(some):
             row = some.iloc[0]
             reason = f": {row['why']}" if row["why"] else ""
-            yield f"Most {verb} weld {lasts(row, b)}{reason}."
+            yield f"{MOST[verb]} {lasts(row, b)}{reason}."
         if len(some) > 1:
             yield from _common_cause(some, verb)
     first, other = (side.sort_values("life_km").iloc[0] for side in (_shortest(pair, ""), _shortest(pair, "other_")))

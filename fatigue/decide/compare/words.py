@@ -112,7 +112,7 @@ def _said(of: Cause, causes: Sequence[Cause], names: Mapping[int, str]) -> str:
         return f"the damage limit is {of.other_value:g} instead of {of.value:g}"
     name = short(of.event)
     often, damage = _shares([one for one in causes if one.event == of.event])
-    said = [f"does {_of(damage.other_value / damage.value)} the damage per pass"] if damage is not None else []
+    said = [f"does {_of(damage.other_value / damage.value)} its damage per pass in A"] if damage is not None else []
     said += [f"occurs {times(often.other_value / often.value)} as often"] if often is not None else []
     if of.value == 0.0 or of.other_value == 0.0:
         change = "comes in" if of.value == 0.0 else "is gone"

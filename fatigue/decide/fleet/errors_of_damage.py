@@ -32,6 +32,13 @@ def errors_of_damage(fleet: Fleet, results: Mapping[str, Result], points: Points
     return found
 
 
+def counted_as_exact(fleet: Fleet, errors: Floats, worst: NDArray[np.int64]) -> tuple[str, ...]:
+    """Conditions of which nothing says how sure their damage is, at one of the points ``worst`` at least."""
+    silent = (errors[worst] == 0.0).any(axis=0)
+    asked = zip(fleet.condition, silent, strict=True)
+    return tuple(one.name for one, is_silent in asked if is_silent and one.damage_cv is None)
+
+
 def _of_band(result: Result, points: Points) -> Floats:
     """Standard errors (p,) from the band of a result, 0 where it has none."""
     if not (result.folder / "band.parquet").exists():

@@ -34,6 +34,7 @@ def fleet_page(found: FleetFound) -> str:
         "shares": _shares(found, figs),
         "variance": _table("fleet_variance", _variance(found), len(found.variance)) if found.variance else None,
         "points_rule": found.points_rule,
+        "doubt": found.doubt,
         "warnings": found.warnings,
     }
     return page_text("fatigue.decide.fleet", "fleet.html", context, figs)

@@ -15,7 +15,7 @@ from fatigue.decide.beside_results import refuse_results
 from fatigue.decide.fleet.conditions import Points, Result, read_results, shared_points
 from fatigue.decide.fleet.distances import Distances, correlation_matrix, read_distances
 from fatigue.decide.fleet.doubts import doubts, refuse_short_loops
-from fatigue.decide.fleet.errors_of_damage import errors_of_damage
+from fatigue.decide.fleet.errors_of_damage import counted_as_exact, errors_of_damage
 from fatigue.decide.fleet.fleet_file import Fleet, load_fleet
 from fatigue.decide.fleet.page import PAGE, fleet_page
 from fatigue.decide.fleet.rows import MOST_POINT_ROWS, percentile_rows, point_rows, unit_rows, variance_rows, weld_rows
@@ -88,6 +88,7 @@ def _summed_up(asked: Fleet, results: dict[str, Result], folder: Path | None, km
         units=unit_rows(of, scatter, asked.names, asked.target_years),
         percentiles=percentile_rows(of, asked.percentiles),
         variance=variance_rows(of, tuple(variances(of, scatter)), asked.names),
+        counted_as_exact=counted_as_exact(asked, scatter.damage_cv, of.worst_of_units),
         every_point=len(points.key) * len(distances.units) <= MOST_POINT_ROWS,
         points_rule=_points_rule(points, distances),
         warnings=(*warnings, *doubts(asked, results, points)),

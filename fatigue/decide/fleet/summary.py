@@ -28,6 +28,7 @@ class FleetFound:
     units : shortest life first
     percentiles : of the worst weld of each unit, then weld by weld, shortest lives first
     variance : of the distances over the units, then of single units
+    counted_as_exact : conditions of which nothing says how sure their damage is
     every_point : whether the table of points was written: its rule is in ``points_rule``
     """
 
@@ -39,6 +40,7 @@ class FleetFound:
     units: tuple[UnitRow, ...]
     percentiles: tuple[PercentileRow, ...]
     variance: tuple[VarianceRow, ...]
+    counted_as_exact: tuple[str, ...]
     every_point: bool
     points_rule: str
     warnings: tuple[Problem, ...]
@@ -75,6 +77,14 @@ class FleetFound:
             "point": self.points,
         }
         return ", ".join(f"{whole(n)} {of}{'s' * (n != 1)}" for of, n in counts.items())
+
+    @property
+    def doubt(self) -> str:
+        """What the standard deviations of the damage leave out; empty where there are none, or nothing is left out."""
+        if not self.counted_as_exact or not any(row.of == "unit" for row in self.variance):
+            return ""
+        names = few([visible(name) for name in self.counted_as_exact])
+        return f"Nothing says how sure the damage of {names} is: it counts as exact. State damage_cv."
 
     def as_record(self) -> dict[str, Any]:
         """Record for machines."""
@@ -145,6 +155,8 @@ class FleetFound:
                 f"What makes the damage of {visible(unit.unit)} uncertain, {share(unit.damage_cv)} standard deviation"
             )
             yield f"{told}: {_largest(own)}"
+        if self.doubt:
+            yield self.doubt
 
 
 def _largest(rows: Sequence[VarianceRow]) -> str:

@@ -54,6 +54,11 @@ class Summed:
     at_most: Floats
     governing: NDArray[np.int64]
 
+    @property
+    def worst_of_units(self) -> NDArray[np.int64]:
+        """Worst point (u,) of each unit."""
+        return self.worst.point[self.governing, np.arange(len(self.governing))]
+
 
 def summed(points: Points, distances: Distances) -> Summed:
     """Worst points and lives of every weld and unit."""

@@ -5,7 +5,7 @@ from typing import Any
 
 from fatigue.decide.whatif.figures import lives_figure
 from fatigue.decide.whatif.forward import BASES
-from fatigue.decide.whatif.summary import WhatIf
+from fatigue.decide.whatif.summary import HELD, MEANING, WhatIf
 from fatigue.report import wording
 from fatigue.report.page_text import page_text
 from fatigue.report.rows_table import MOST_ROWS, filter_label
@@ -17,13 +17,6 @@ VERDICT = {
     "meets": Cell("✓ meets", 2.0, mark="met"),
     "not_proven": Cell("? not proven", 1.0),
     "misses": Cell("✕ misses", 0.0, mark="missed"),
-}
-MEANING = {
-    "exact": "every cycle does a known multiple of what it did: sums of stored damages",
-    "histogram": "stored ranges, in classes, entered into the new curve: between two proven bounds",
-    "bound": "at most this: a multiple that no cycle exceeds, of points that were not counted or have no stored ranges",
-    "recount": "nothing stored says enough: no number is given",
-    "counted": "counted again from the input files",
 }
 HEADINGS = (
     Heading("weld", numeric=False),
@@ -57,6 +50,7 @@ def whatif_page(found: WhatIf) -> str:
         "welds": _weld_table(found),
         "left_out": max(0, len(found.welds) - MOST_ROWS),
         "bases": _bases(found),
+        "held": HELD,
         "warnings": found.warnings,
     }
     return page_text("fatigue.decide.whatif", "whatif.html", context, figs)

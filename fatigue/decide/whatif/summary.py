@@ -16,6 +16,18 @@ from fatigue.shown import shortened, visible
 
 MOST_TOLD = 40  # welds in the text
 NAME = 34  # letters of a weld
+MEANING = {
+    "exact": "every cycle does a known multiple of what it did: sums of stored damages",
+    "histogram": "stored ranges, in classes, entered into the new curve: between two proven bounds",
+    "bound": "damage at most, life at least this: a multiple that no cycle exceeds, of a point that was not counted or "
+    "has no stored ranges",
+    "recount": "nothing stored says enough: no number is given",
+    "counted": "counted again from the input files",
+}
+HELD = (
+    "All else is as it was assessed. From .. to bounds what the stored numbers cannot tell; "
+    "it is no scatter of load or strength."
+)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -87,7 +99,7 @@ class WhatIf:
     def as_text(self) -> str:
         """Text for people."""
         parts = [f"{visible(self.title)}: what if", *(f"  {visible(one)}" for one in self.changes), "", *self._said()]
-        parts += ["", *self._table()]
+        parts += ["", *self._table(), "", *self._meanings()]
         if self.written:
             parts += ["", f"written: {', '.join(self.written)}"]
         return "\n".join(parts)
@@ -115,6 +127,11 @@ class WhatIf:
         yield from aligned(lines, right=range(1, 5))
         if (more := len(self.welds) - MOST_TOLD) > 0:
             yield f"  and {more} more, which do not miss their target or are further from it"
+
+    def _meanings(self) -> Iterator[str]:
+        """What the bases mean that the numbers rest on, and what is held."""
+        yield from (f"{basis}: {MEANING[basis]}" for basis in self.of_basis)
+        yield HELD
 
 
 def _words(verdict: str) -> str:

@@ -72,9 +72,10 @@ def test_each_kind_is_told(result, path, value, known):
     assert known is None or found == known
 
 
-def test_what_lies_beside_the_life_is_told_as_such(result):
-    """The rules of the estimate and of what is kept say nothing of the life."""
-    found = changed(result, lambda record: record["rules"]["spectrum"].update(segment_s=2.0))
+@pytest.mark.parametrize(("rule", "value"), [("spectrum", {"segment_s": 2.0}), ("life_band", {"miner_sigma_ln": 0.3})])
+def test_what_lies_beside_the_life_is_told_as_such(result, rule, value):
+    """The rules of the estimate, of bands and of what is kept say nothing of the life."""
+    found = changed(result, lambda record: record["rules"][rule].update(value))
     ((_, _, sits_in),) = found.values()
     assert sits_in.startswith("nothing of the life")
 

@@ -37,8 +37,8 @@ def test_losers_and_gainers_are_ranked(result):
     assert [losing["weld"].tolist(), gaining["weld"].tolist(), len(same)] == [["B"], ["A"], 0]
     said = list(sentences(pair))
     assert said[0] == "Of 2 welds 1 lasts longer in B than in A, 1 less long and none as long to 5 %."
-    assert any(one.startswith("Most loses weld B, which lasts 0.1 times as long in B (") for one in said)
-    assert any(one.startswith("Most gains weld A, which lasts 2 times as long in B (") for one in said)
+    assert any(one.startswith("The largest loss is that of B, which lasts 0.1 times as long in B (") for one in said)
+    assert any(one.startswith("The largest gain is that of A, which lasts 2 times as long in B (") for one in said)
 
 
 def test_a_flip_by_a_check_is_no_flip_of_a_life(result):

@@ -115,7 +115,7 @@ def test_a_louder_mode_is_found_by_name(pair):
     assert (some.loc[some["kind"] == "per_pass", "log_life_ratio"] < 0.0).all()
     assert pair.welds["cause_event"].tolist() == [NOISE] * 2
     for said in pair.welds["why"]:
-        assert "the damage per pass, most of it by mode 1 (5 Hz)" in said
+        assert "its damage per pass in A, most of it by mode 1 (5 Hz)" in said
         assert "the damage limit is 0.5 instead of 1" in said
 
 

@@ -32,8 +32,8 @@ def test_the_largest_causes_come_first_and_those_against_them_behind():
     ]  # fmt: skip
     said = why(causes, -2.4, NAMES)
     assert said == (
-        "first does 4 times the damage per pass and occurs 2 times as often and second occurs 2 times as often; "
-        "against it back does 4 times the damage per pass"
+        "first does 4 times its damage per pass in A and occurs 2 times as often and second occurs 2 times as often; "
+        "against it back does 4 times its damage per pass in A"
     )
     assert largest_cause(causes, -2.4).event == "first"
     assert largest_cause(causes, 0.1).event == "back"
@@ -57,7 +57,7 @@ def test_a_life_that_stays_says_nothing_unless_causes_cancel():
     assert why([], 0.0, NAMES) == ""
     assert largest_cause([event("e", 0.0)], 0.0) is None
     said = why([event("e", -1.0), *parts("e", 0.0, -1.0), event("f", 1.0, 1e-8, 0.0)], 0.0, NAMES)
-    assert said == "e does 4 times the damage per pass and f is gone, which others make up for"
+    assert said == "e does 4 times its damage per pass in A and f is gone, which others make up for"
 
 
 def test_modes_are_named_until_they_make_most_of_it():
@@ -81,7 +81,7 @@ def test_less_damage_is_a_percentage():
         Cause("mission", "e", None, None, 1.0, 1.0, 0.0),
         Cause("per_pass", "e", None, None, 12.0, 1.0, 2.0),
     ]
-    assert why(causes, 2.0, NAMES) == "e does 8.33 % of the damage per pass"
+    assert why(causes, 2.0, NAMES) == "e does 8.33 % of its damage per pass in A"
 
 
 def test_names_of_modes():

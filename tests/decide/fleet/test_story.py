@@ -112,6 +112,11 @@ def test_uncertainty_of_a_unit(folder, tmp_path):
     d = [damage.loc[(*at, event), "damage_per_km"] for event in ("tangent 350", "curves 160")]
     sd = np.hypot(d[0] * 30000.0, d[1] * 60000.0)
     assert row.damage_cv == pytest.approx(sd / row.damage_per_year, rel=1e-12)
+    assert "line A, worn wheels" not in found.counted_as_exact  # has its damage_cv
+    assert found.counted_as_exact == ("line A, sound wheels", "line B", "loading")
+    told = "Nothing says how sure the damage of line A, sound wheels, line B, loading is: it counts as exact."
+    assert told in found.as_text()
+    assert told[1:] in (tmp_path / "out" / "fleet.html").read_text()
 
 
 def test_many_points_are_left_out(folder, tmp_path, monkeypatch):
@@ -290,10 +295,13 @@ def test_error_of_the_band(tmp_path):
     into = result(case, tmp_path / "case", tmp_path / "one")
     band = pd.read_parquet(into / "band.parquet").set_index(POINT)
     km = [{"unit": "T", "condition": "c", "km_per_year": 1e5}]
-    (row,) = fleet(fleet_of(tmp_path, [("c", into, "curves 160")], km)).units
+    found = fleet(fleet_of(tmp_path, [("c", into, "curves 160")], km))
+    (row,) = found.units
     se = band.loc[(row.weld, row.part, row.order, row.surface), "se_load"]
     assert se > 0.0
     assert row.damage_cv == pytest.approx(se, rel=1e-12)
+    assert found.counted_as_exact == ()
+    assert "counts as exact" not in found.as_text()
 
 
 def test_older_results(folder, tmp_path, caplog):

@@ -54,7 +54,7 @@ def test_the_table_of_page_one_is_that_of_the_worst_points(lined):
         assert row[8] == life(point["line_life_km_p50"])
     assert WHAT_IT_IS_NOT in page.words
     assert "lengths of 25 mm, correlated by 0" in page.words
-    assert "half of all fail at 0.8, scattering by 0.3 in its logarithm" in page.words
+    assert "half of all fail at a damage sum of 0.8, scattering by 0.3 in its logarithm" in page.words
 
 
 def test_a_page_without_a_band_says_why(short):

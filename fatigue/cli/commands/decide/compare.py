@@ -11,7 +11,7 @@ from fatigue.cli.output import print_json, say
 from fatigue.cli.progress import narrated
 
 
-@cli.command()
+@cli.command(short_help="Lay results beside each other: who gains, who loses, why.")
 @click.argument("folders", metavar="A B [C ...]", type=FOLDER, nargs=-1, required=True)
 @click.option("-o", "--output", type=FOLDER, metavar="DIR", help="Folder for tables and page, made if not there.")
 @click.option(

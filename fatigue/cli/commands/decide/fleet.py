@@ -10,13 +10,13 @@ from fatigue.cli.output import print_json, print_warnings, say
 from fatigue.cli.progress import narrated
 
 
-@cli.command()
+@cli.command(short_help="Lives of units that run different distances.")
 @click.argument("file", metavar="FLEET", type=click.Path(path_type=Path))
 @click.option("-o", "--output", type=FOLDER, metavar="DIR", help="Folder for tables and page, made if not there.")
 @click.option("--csv", is_flag=True, help="Write the tables as CSV as well.")
 @click.option("--force", is_flag=True, help="Overwrite files in DIR that fatigue fleet did not write.")
-@click.option("--exit-zero", is_flag=True, help="Exit 0 although a unit misses target_years.")
 @no_lock
+@click.option("--exit-zero", is_flag=True, help="Exit 0 although a unit misses target_years.")
 @as_json
 @click.pass_obj
 def fleet(
@@ -25,14 +25,15 @@ def fleet(
     output: Path | None,
     csv: bool,
     force: bool,
-    exit_zero: bool,
     no_lock: bool,
+    exit_zero: bool,
     as_json: bool,
 ) -> None:
     """Sum the damage of units that run different distances under the conditions of several results.
 
     FLEET is a fleet.toml: conditions, each an event of a result folder, and a table of km per unit, condition and year.
     Prints lives in years by unit, percentiles over the units, and what makes them differ. Nothing is counted again.
+    Exit code 1: a unit misses target_years.
 
     \b
     Examples:

@@ -12,7 +12,7 @@ from fatigue.cli.output import print_json, print_warnings, say
 from fatigue.cli.progress import narrated
 
 
-@cli.command()
+@cli.command(short_help="A result under another mission, curve or load.")
 @click.argument("folder", metavar="DIR", type=FOLDER)
 @click.option(
     "--set",

@@ -76,10 +76,11 @@ def band_sentence(found: BandOfPoint | None) -> str:
         return f"No band of this life: {REASONS[found.reason]}."
     words = [f"90 % band by the scatter of the load: {life_in_band(found.life_km, found.low_km, found.high_km)}"]
     if found.reason == AT_LEAST:
-        words.append(f" at least, as {REASONS[AT_LEAST].partition(',')[0]}")
+        words.append(f", at least this wide, as {REASONS[AT_LEAST].partition(',')[0]}")
     if found.has_lives:
         of = {name: life_km(found.lives_km[name]) for name in SURVIVALS}
-        words.append(f"; with that of the S-N curve half reach {of['life_km_p50']}, 90 % reach {of['life_km_p90']}")
+        words.append("; with that of S-N curve and damage sum half ")
+        words.append(f"reach {of['life_km_p50']}, 90 % reach {of['life_km_p90']}")
     return f"{''.join(words)}."
 
 
@@ -123,7 +124,7 @@ def _cells(found: BandOfPoint | None, *, with_lines: bool) -> tuple[Cell, ...]:
 def _miner_words(asked: Mapping[str, Any]) -> str:
     """What is taken of the damage sum at failure."""
     median, sigma = asked["miner_median"], asked["miner_sigma_ln"]
-    of = f"at {median:g}" if isinstance(median, float | int) else "at the allowed damage sum"
+    of = f"at a damage sum of {median:g}" if isinstance(median, float | int) else "at the allowed damage sum"
     scatter = f", scattering by {sigma:g} in its logarithm" if sigma else ", which does not scatter"
     return f"half of all fail {of}{scatter}"
 
