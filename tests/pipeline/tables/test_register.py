@@ -6,6 +6,7 @@ import pandas as pd
 
 from fatigue.assess import assess
 from fatigue.case import load_case
+from fatigue.pipeline.count.worst import EQUAL
 from fatigue.readers.neutral.register.register_file import register_text
 from fatigue.readers.neutral.register.weld_register import REGISTER, RegisterRow
 from fatigue.results.summary import result_summary
@@ -13,7 +14,7 @@ from tests.small_case import small_case
 
 
 def test_every_weld_is_listed_with_its_worst_toe_point(small_result):
-    """The register repeats the row of the worst toe point of every weld."""
+    """The register repeats the row of the worst toe point of every weld, the first of those equal but for rounding."""
     welds = pd.read_parquet(small_result / "welds.parquet").set_index("weld")
     nodes = pd.read_parquet(small_result / "nodes.parquet")
     for weld, row in welds.iterrows():
