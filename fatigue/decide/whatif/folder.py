@@ -6,6 +6,7 @@ from pathlib import Path
 
 from fatigue.decide.whatif.page import PAGE, whatif_page
 from fatigue.decide.whatif.summary import WhatIf
+from fatigue.errors import DataError, Problem
 from fatigue.files import recorded
 from fatigue.files.recorded import Filled
 from fatigue.results import read_provenance
@@ -23,6 +24,9 @@ def refuse_foreign(folder: Path, result: Path, case_file: Path | None, *, force:
     ------
     DataError : everything in the way
     """
+    if folder.exists() and folder.samefile(result):
+        what = "is the result itself, which a what-if does not change"
+        raise DataError(Problem("input_in_the_way", str(folder), what, "Give another folder with -o"))
     recorded.refuse_foreign(folder, FILLED, force=force, inputs=list(_inputs(result, case_file)))
 
 
