@@ -86,6 +86,15 @@ def test_folder_of_a_what_if(result, tmp_path):
     assert "whatif.parquet: is there already and was not written by fatigue whatif" in done.stderr
 
 
+@pytest.mark.parametrize("force", [(), ("--force",)])
+def test_nothing_is_written_into_the_result(result, force):
+    """The folder of the result is refused as the one to write into, with force as well."""
+    done = fatigue("-q", "whatif", result, "--set", "load=1.1", "-o", result, *force)
+    assert done.returncode == 3
+    assert "is the result itself, which a what-if does not change. Give another folder with -o" in done.stderr
+    assert not (result / "whatif.html").exists()
+
+
 def test_the_result_keeps_its_bytes(result):
     """Nothing is written into the folder of the result, even where that is asked for."""
     before = {path.name: path.read_bytes() for path in result.iterdir() if path.is_file()}

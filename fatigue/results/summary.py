@@ -184,7 +184,8 @@ class Summary:
         table["90_percent_band_of_load_km"] = [_band(band) for band in found]
         for name, column in (("50_percent_km", "life_km_p50"), ("90_percent_km", "life_km_p90")):
             table[name] = [math.nan if band is None else band.lives_km[column] for band in found]
-        columns = list(table) if any(band is not None and band.has_lives for band in found) else list(table)[:3]
+        has_lives = any(band is not None and band.has_lives for band in found)
+        columns = list(table) if has_lives else list(table)[:3]
         of_line = [math.nan if band is None else band.line_survival for band in found]
         if not all(map(math.isnan, of_line)):
             table["line_survival_at_target"] = of_line
@@ -193,7 +194,8 @@ class Summary:
         others = len(self.welds) - len(shown)
         return [
             "",
-            "How sure the lives are: another record; lives that a share reaches, by record, S-N curve and damage sum",
+            "How sure the lives are: the band of another record"
+            + ("; lives that a share reaches, by record, S-N curve and damage sum" if has_lives else ""),
             _text_table(pd.DataFrame(table), columns),
             *([f"and {others} others, see band.parquet"] if others else []),
             *(f"{SHORT_REASONS[reason]}: {REASONS[reason]}" for reason in reasons),
