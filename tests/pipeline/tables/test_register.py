@@ -19,8 +19,7 @@ def test_every_weld_is_listed_with_its_worst_toe_point(small_result):
     nodes = pd.read_parquet(small_result / "nodes.parquet")
     for weld, row in welds.iterrows():
         points = nodes[(nodes.weld == weld) & nodes.toe]
-        equally_bad = points.utilisation >= points.utilisation.max() * (1.0 - 1e-9)  # but for rounding
-        worst = points[equally_bad].iloc[0]
+        worst = points[points.utilisation >= EQUAL * points.utilisation.max()].iloc[0]
         assert (row.worst_node, row.worst_surface) == (worst.node, worst.surface)
         assert (row.life_km, row.load_factor, row.governing_event) == (
             worst.life_km,
