@@ -10,11 +10,12 @@ from pathlib import Path
 import pytest
 
 from fatigue.case import load_case
-from fatigue.cli import cli, main
+from fatigue.cli import cli
 from fatigue.cli.early import missing_foreign, missing_tables, refuse_missing_case
 from fatigue.errors import FatigueError
 from fatigue.readers.foreign.read import recognise
 from fatigue.readers.neutral.files import open_columns
+from tests.command_line import fatigue
 
 ROOT = Path(__file__).parents[1]
 LIGHT = """
@@ -161,15 +162,14 @@ def test_what_the_system_refuses_is_told(early, arguments, words):
 
 
 @pytest.mark.parametrize("code", [errno.ENOSPC, errno.EDQUOT])
-def test_a_full_disk_is_told(code, monkeypatch, capsys):
+def test_a_full_disk_is_told(code, monkeypatch):
     """What to do is to make room; the system often names no file."""
 
     def full(**_):
         raise OSError(code, "No space left on device")
 
     monkeypatch.setattr(cli, "main", full)
-    with pytest.raises(SystemExit) as done:
-        main()
-    assert done.value.code == 3
+    done = fatigue("show")
+    assert done.returncode == 3
     said = "error: a file: cannot be written (No space left on device). Make room, and give the same command again.\n"
-    assert capsys.readouterr().err == said
+    assert done.stderr == said

@@ -10,10 +10,10 @@ import pandas as pd
 import pytest
 
 from fatigue.assess import assess
-from fatigue.cli import main
 from fatigue.diagnose import diagnose
 from fatigue.results.summary import result_summary
 from fatigue.verify.recount import recount
+from tests.command_line import fatigue
 from tests.small_case import SmallCase, sine_only, small_case
 
 CLASS = """
@@ -156,18 +156,12 @@ def test_nothing_of_it_is_said_of_cross_checked_curves(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("status", "code"), [("unverified", 3), ("user", 1), ("verified", 1)])
-def test_require_verified(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], status: str, code: int
-) -> None:
+def test_require_verified(tmp_path: Path, status: str, code: int) -> None:
     """Exit 3 names the curves; what the user has entered passes, and then the verdict of the welds counts."""
-    case = case_with(mine=f'status = "{status}"', other="")
-    args = ["assess", str(case.write(tmp_path)), "-o", str(tmp_path / "result"), "--no-report", "--require-verified"]
-    monkeypatch.setattr("sys.argv", ["fatigue", *args])
-    with pytest.raises(SystemExit) as ended:
-        main()
-    assert ended.value.code == code
-    said = capsys.readouterr()
-    assert ("curve 'mine' is unverified" in said.out + said.err) == (code == 3)
+    path = case_with(mine=f'status = "{status}"', other="").write(tmp_path)
+    done = fatigue("assess", path, "-o", tmp_path / "result", "--no-report", "--require-verified")
+    assert done.returncode == code
+    assert ("curve 'mine' is unverified" in done.stdout + done.stderr) == (code == 3)
     assert (tmp_path / "result" / "welds.parquet").exists() == (code != 3)
 
 

@@ -25,6 +25,7 @@ from tests.readers.tee_model import bulk, tee
 from tests.small_case import small_case
 
 REGISTER = "welds_register.csv"
+SECONDS = 3.0  # of the records that a case by hand counts
 
 
 @pytest.fixture(scope="module")
@@ -298,7 +299,7 @@ def test_another_register_may_be_named(body):
 
 def hand_written(folder, rows, pairs=8, suffix="csv"):
     """Write a case by hand with summed nodal forces, and a register."""
-    case = small_case(pairs=pairs)
+    case = small_case(SECONDS, pairs)
     case.body["register"] = "mine.csv"
     case.welds["curve"] = "master-steel"
     path = case.write(folder, suffix)
@@ -321,7 +322,7 @@ def test_tables_written_by_hand_are_registered_by_the_names_in_them(tmp_path, li
     assert set(welds.curve.dropna()) == {"master-steel"}
     assert welds.loc["B", ["status", "reason"]].tolist() == ["excluded", "excluded"]
     assert (welds.status == "assessed").sum() == 2 * pairs - 1
-    plain = small_case(pairs=pairs)
+    plain = small_case(SECONDS, pairs)
     plain.welds["curve"] = "master-steel"
     assess(load_case(plain.write(tmp_path / "plain")), tmp_path / "all", threads=1, report=False)
     every = pd.read_parquet(tmp_path / "all" / "nodes.parquet").set_index("weld")
