@@ -310,7 +310,7 @@ def _compared(
             damage.append(damage_row(key, event, one, of_damage[i * e + j], is_bound=bool(found["screened"])))
     in_bands = stored_bands(stored, sorted({station.solved.line.weld for station in stations.values()}))
     bands = [
-        band_row(key, events, passes[point].treated, values[point]["life_km"], in_bands[key])
+        band_row(key, events, passes[point].treated, values[point]["life_km"], bounds[point]["life_km"], in_bands[key])
         for point, key in ((point, stored.body.key(point)) for point in stations)
         if key in in_bands and in_bands[key]["band_reason"] != "screened"
     ]

@@ -39,14 +39,21 @@ def stored_bands(stored: Stored, welds: Sequence[str]) -> dict[Key, dict[str, An
 
 
 def band_row(
-    key: Key, events: Sequence[RecountEvent], passes: Sequence[OnePass], life_km: float, found: Mapping[str, Any]
+    key: Key,
+    events: Sequence[RecountEvent],
+    passes: Sequence[OnePass],
+    life_km: float,
+    bound: float,
+    found: Mapping[str, Any],
 ) -> Row:
     """The row of one point: its life and, where the table has one, its band by the load.
 
-    An event with a small share may scatter as its record does or by all of its damage: the table may say either.
+    ``bound`` is what rounding may do to the inverse of the life [1/km]. An event with a small share may scatter as its
+    record does or by all of its damage: the table may say either.
     """
     reason = "" if pd.isna(found["band_reason"]) else str(found["band_reason"])
     expected: dict[str, Any] = {"life_km": life_km}
+    bounds = {"life_km": bound}
     if reason in WITH_BAND:
         per_km = np.array(
             [event.passes_per_km * one.quantities["damage_per_pass"] for event, one in zip(events, passes, strict=True)]
@@ -61,8 +68,21 @@ def band_row(
             expected["dof"] = dof = _freedom(least)
         half = float(student.ppf(0.95, dof)) * expected["se_load"]
         expected |= {"life_km_load_low": life_km * np.exp(-half), "life_km_load_high": life_km * np.exp(half)}
+        bounds |= _bounds(bound * life_km, expected["se_load"], half)
+        bounds |= {name: bounds["ends"] / expected[name] for name in ("life_km_load_low", "life_km_load_high")}
     scale = {"se_load": max(1e-3, expected.get("se_load", 0.0))}
-    return Row(f"{place(key)}, band", found, expected, scale)
+    return Row(f"{place(key)}, band", found, expected, scale, bounds=bounds)
+
+
+def _bounds(relative: float, se: float, half: float) -> dict[str, float]:
+    """What rounding may do where it may move the damage, and so any piece of it, by a ``relative`` part of the sum.
+
+    A sum of 5 pieces moves by as much, and the standard error by the root of 6 x 6/5 of it, as its mean does; ``ends``
+    are those of the band, relative.
+    """
+    of_se = 4.0 * relative * (1.0 + se)
+    slope = half / se if se > 0.0 else 2.0
+    return {"se_load": of_se, "dof": 20.0 * of_se / max(se, of_se, 1e-300), "ends": relative + slope * of_se}
 
 
 def _error(pieces: Floats) -> float:

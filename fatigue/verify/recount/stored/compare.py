@@ -17,7 +17,7 @@ UPPER_BOUNDS = {"damage_per_km", "damage_per_pass", "utilisation", "max_range_MP
                 "utilisation_asme"}  # fmt: skip
 OF_SPECTRUM = {"irregularity", "outside_share", "peaks_per_s", "samples_per_peak"}  # exact where bounds stand, too
 INVERSE = {"life_km", "life_years", "life_km_raw_end", "life_km_dirlik", "life_km_tb", "life_km_same_ratio",
-           "load_factor"}  # fmt: skip
+           "load_factor", "life_km_load_low", "life_km_load_high"}  # fmt: skip
 LOWER_BOUNDS = {"life_km", "life_years", "life_km_raw_end", "load_factor"}
 
 
