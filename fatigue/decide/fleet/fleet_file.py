@@ -94,6 +94,7 @@ class Fleet(Table):
             if first.setdefault(condition.name, number) < number:
                 what = f"{condition.name!r} is already the name of condition[{first[condition.name]}]"
                 yield Problem("duplicate", f"condition[{number}].name", what, "Give every condition its own name")
+        yield from self._errors_of_one_damage()
         pairs: dict[frozenset[str], int] = {}
         for number, one in enumerate(self.correlation, 1):
             where = f"correlation[{number}].conditions"
@@ -104,6 +105,19 @@ class Fleet(Table):
             if pairs.setdefault(frozenset(one.conditions), number) < number:
                 what = f"the pair stands in correlation[{pairs[frozenset(one.conditions)]}] already"
                 yield Problem("duplicate", where, what, "Keep one of them")
+
+    def _errors_of_one_damage(self) -> Iterator[Problem]:
+        """Refusal of two standard errors of the damage of one event of one result, which has one."""
+        first: dict[tuple[str, str], int] = {}
+        for number, condition in enumerate(self.condition, 1):
+            before = first.setdefault((condition.results, condition.event), number)
+            stated = self.condition[before - 1].damage_cv
+            if condition.damage_cv != stated:
+                here, there = ("none" if cv is None else f"{cv:g}" for cv in (condition.damage_cv, stated))
+                what = (
+                    f"is {here}, and {there} in condition[{before}], whose event is the same: it has one error"
+                )
+                yield clash(f"condition[{number}].damage_cv", what, "State the same in both")
 
 
 MODELS: dict[tuple[str, ...], type[BaseModel]] = {

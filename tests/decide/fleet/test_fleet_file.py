@@ -43,6 +43,7 @@ def test_defaults(tmp_path):
         ('km = "k.csv"\n' + ONE + '[[correlation]]\nconditions = ["a", "a"]\nrho = 0.5\n', "stands there twice"),
         ('km = "k.csv"\n' + ONE + TWO + 2 * '[[correlation]]\nconditions = ["a", "b"]\nrho = 0.5\n', "stands in corr"),
         ('km = "k.csv"\n' + ONE + TWO + '[[correlation]]\nconditions = ["a", "b"]\nrho = 1.5\n', "rho"),
+        ('km = "k.csv"\n' + ONE + "damage_cv = 0.1\n" + ONE.replace('"a"', '"b"'), "damage_cv: is none, and 0.1 in"),
         ("[body]\n[mission]\n", "this is a case (case.toml), not a fleet"),
         ("km = \n", "toml"),
     ],
