@@ -91,7 +91,7 @@ def test_nothing_is_written_into_the_result(result, force):
     """The folder of the result is refused as the one to write into, with force as well."""
     done = fatigue("-q", "whatif", result, "--set", "load=1.1", "-o", result, *force)
     assert done.returncode == 3
-    assert "is the result itself, which a what-if does not change. Give another folder with -o" in done.stderr
+    assert "is one of the results that are read, which stay as they are. Give another folder with -o" in done.stderr
     assert not (result / "whatif.html").exists()
 
 
