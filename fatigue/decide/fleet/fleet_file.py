@@ -114,9 +114,7 @@ class Fleet(Table):
             stated = self.condition[before - 1].damage_cv
             if condition.damage_cv != stated:
                 here, there = ("none" if cv is None else f"{cv:g}" for cv in (condition.damage_cv, stated))
-                what = (
-                    f"is {here}, and {there} in condition[{before}], whose event is the same: it has one error"
-                )
+                what = f"is {here}, and {there} in condition[{before}], whose event is the same: it has one error"
                 yield clash(f"condition[{number}].damage_cv", what, "State the same in both")
 
 
