@@ -1,15 +1,21 @@
-"""A TOML file as it is written: its text and its tables, or one clear line that says why there are none."""
+"""A TOML file of the user: its tables as they are written, then as a checked model; each mistake is one clear line."""
 
 import tomllib
+from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
+
+from pydantic import BaseModel, ValidationError
+from pydantic_core import ErrorDetails
 
 from fatigue.case.extremes import excess, extreme_values
-from fatigue.case.problems import syntax_problem
+from fatigue.case.problems import Contradictions, Models, model_problems, syntax_problem
 from fatigue.errors import CaseError, Problem, given_path, refuse
 from fatigue.files.misplaced import misplaced
 from fatigue.files.naming import missing_file
+
+OfFile = TypeVar("OfFile", bound=BaseModel)
 
 
 def read_toml(path: Path | str, what: str) -> dict[str, Any]:
@@ -31,6 +37,28 @@ def read_toml(path: Path | str, what: str) -> dict[str, Any]:
         refuse(CaseError, (replace(extreme, where=f"{path.name}: {extreme.where}") for extreme in extreme_values(raw)))
         return raw
     raise CaseError(found if found.where == path.name else replace(found, where=f"{path.name}: {found.where}"))
+
+
+def checked_file(model: type[OfFile], raw: dict[str, Any], path: Path, models: Models) -> OfFile:
+    """Model of the tables ``raw`` of a file, its context the path; ``models`` has the model of every table by its keys.
+
+    Raises
+    ------
+    CaseError : every mistake of the file, not only the first
+    """
+    try:
+        return model.model_validate(raw, context=path)
+    except ValidationError as error:
+        problems = [problem for details in error.errors() for problem in _problems(details, models, raw)]
+    raise CaseError(*(replace(problem, where=f"{path.name}: {problem.where}") for problem in problems))
+
+
+def _problems(details: ErrorDetails, models: Models, raw: dict[str, Any]) -> Iterable[Problem]:
+    """Refusals that one finding of the models stands for; what contradicts itself across tables has its place."""
+    cause = details.get("ctx", {}).get("error")
+    if not details["loc"] and isinstance(cause, Contradictions):
+        return cause.problems
+    return model_problems(details, models, raw)
 
 
 def _text(path: Path, what: str) -> str:

@@ -4,17 +4,15 @@ What is varied is checked later, key by key, against the vehicle and the case th
 """
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import replace
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, BeforeValidator, Field, PrivateAttr, ValidationError
-from pydantic_core import ErrorDetails
+from pydantic import BaseModel, BeforeValidator, Field, PrivateAttr
 
-from fatigue.case.problems import Contradictions, absent, clash, model_problems, path_problems
+from fatigue.case.problems import absent, clash, path_problems
 from fatigue.case.table import Positive, Table, Text
-from fatigue.case.toml_file import read_toml
+from fatigue.case.toml_file import checked_file, read_toml
 from fatigue.errors import CaseError, Problem, given_path, refuse
 from fatigue.study.vehicle_keys import KEYS
 
@@ -287,11 +285,7 @@ def load_study(path: Path | str) -> Study:
     path = given_path(path, "study")
     raw = read_toml(path, WHAT)
     refuse(CaseError, _another_file(raw, path))
-    try:
-        return Study.model_validate(raw, context=path)
-    except ValidationError as error:
-        problems = [problem for details in error.errors() for problem in _problems(details, raw)]
-    raise CaseError(*(replace(problem, where=f"{path.name}: {problem.where}") for problem in problems))
+    return checked_file(Study, raw, path, MODELS)
 
 
 def _another_file(raw: Mapping[str, Any], path: Path) -> Iterator[Problem]:
@@ -306,11 +300,3 @@ def _another_file(raw: Mapping[str, Any], path: Path) -> Iterator[Problem]:
             )
             yield Problem("foreign_format", path.name, f"this is {kind}, not a study", f"{remedy}{path.name!r}")
             return
-
-
-def _problems(details: ErrorDetails, raw: dict[str, Any]) -> Iterable[Problem]:
-    """Refusals that one finding of the models stands for; what contradicts itself across tables has its place."""
-    cause = details.get("ctx", {}).get("error")
-    if not details["loc"] and isinstance(cause, Contradictions):
-        return cause.problems
-    return model_problems(details, MODELS, raw)

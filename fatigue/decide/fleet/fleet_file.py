@@ -1,16 +1,14 @@
 """``fleet.toml`` as frozen models: the conditions that units run under, and the table of how far they run."""
 
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import replace
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Annotated, Any
 
-from pydantic import BaseModel, Field, PrivateAttr, ValidationError
-from pydantic_core import ErrorDetails
+from pydantic import BaseModel, Field, PrivateAttr
 
-from fatigue.case.problems import Contradictions, clash, model_problems, path_problems
+from fatigue.case.problems import clash, path_problems
 from fatigue.case.table import NotNegative, Positive, Table, Text
-from fatigue.case.toml_file import read_toml
+from fatigue.case.toml_file import checked_file, read_toml
 from fatigue.errors import CaseError, Problem, given_path, refuse
 
 WHAT = "a fleet (fleet.toml)"
@@ -135,11 +133,7 @@ def load_fleet(path: Path | str) -> Fleet:
     path = given_path(path, "fleet")
     raw = read_toml(path, WHAT)
     refuse(CaseError, _another_file(raw, path))
-    try:
-        return Fleet.model_validate(raw, context=path)
-    except ValidationError as error:
-        problems = [problem for details in error.errors() for problem in _problems(details, raw)]
-    raise CaseError(*(replace(problem, where=f"{path.name}: {problem.where}") for problem in problems))
+    return checked_file(Fleet, raw, path, MODELS)
 
 
 def _another_file(raw: Mapping[str, Any], path: Path) -> Iterator[Problem]:
@@ -147,11 +141,3 @@ def _another_file(raw: Mapping[str, Any], path: Path) -> Iterator[Problem]:
     if "condition" not in raw and {"body", "mission"} & raw.keys():
         remedy = "Give a fleet.toml whose conditions name results of it"
         yield Problem("foreign_format", path.name, "this is a case (case.toml), not a fleet", remedy)
-
-
-def _problems(details: ErrorDetails, raw: dict[str, Any]) -> Iterable[Problem]:
-    """Refusals that one finding of the models stands for; what contradicts itself across tables has its place."""
-    cause = details.get("ctx", {}).get("error")
-    if not details["loc"] and isinstance(cause, Contradictions):
-        return cause.problems
-    return model_problems(details, MODELS, raw)
