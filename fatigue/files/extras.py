@@ -3,6 +3,10 @@
 REQUIREMENTS = {
     "distributed": "distributed>=2024.8",
     "h5py": "h5py>=3.11",
+    "asammdf": "asammdf>=8.0",
+    "nptdms": "nptdms>=1.9",
+    "python_calamine": "python_calamine>=0.2",
+    "pyuff": "pyuff>=2.4",
     "xlsxwriter": "xlsxwriter>=3.2",
     "FLife": "FLife>=2.3",
     "pyyeti": "pyyeti>=1.4",

@@ -1,9 +1,10 @@
 """The foreign formats that are read, one entry each: recognition, reading, refusals and help are made of them.
 
-A new format is one entry at the end of ``FORMATS``; its name and first bytes are those of an entry of
-``files.known_formats.OWN``. ``ForeignFormat("tdms", TDMS.name, ending=".tdms", place=6, starts=TDMS.starts,
-extra=Extra("nptdms", "NI TDMS input"), reads={COORDINATES: Reader("histories.tdms.read_tdms", ".tdms", ".tdms")})`` is
-a binary one; a text, as an Abaqus deck, has ``looks_like="abaqus.deck.is_deck"`` in place of ``starts``.
+A new format is one entry at the end of ``FORMATS``; its name and signature are those of an entry of
+``files.known_formats.OWN``. ``ForeignFormat("tdms", TDMS.name, ending=".tdms", place=6, signature=TDMS,
+extra=Extra("nptdms", "NI TDMS input"), reads={CHANNELS: Reader("channels.tdms.read_tdms", ".tdms", ".tdms")})`` is
+a binary one; a text, as an Abaqus deck, has ``looks_like="abaqus.deck.is_deck"`` in place of ``signature``. A format of
+``CHANNELS`` gives modal coordinates, too: ``channels.coordinates`` finds them among the groups that it reads.
 """
 
 from collections.abc import Callable, Mapping
@@ -11,7 +12,7 @@ from dataclasses import dataclass
 from importlib import import_module
 from typing import Any
 
-from fatigue.files.known_formats import DECK, HDF5, OP2, PARQUET, PUNCH
+from fatigue.files.known_formats import DECK, HDF5, OP2, PARQUET, PUNCH, Known
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,6 +28,7 @@ FORCES = Content("grid point forces", "--forces", "no_forces")
 MESH = Content("mesh", "--mesh", "no_mesh")
 STRESSES = Content("shell stresses", "--stresses", "no_stresses")
 COORDINATES = Content("modal coordinates", "--coordinates", "no_coordinates")
+CHANNELS = Content("channels", "fatigue channels", "no_channels")
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +70,7 @@ class ForeignFormat:
     ending : its name in the list of all formats
     place : its place in that list, lowest first; of equal ones in the order of ``FORMATS``
     reads : readers by what they read
-    starts : first bytes of a binary format
+    signature : how a binary format begins
     looks_like : function that tells the format of a text by its beginning, below ``fatigue.readers.foreign``
     extra : package that has to be installed
     belongs : to what a file is given besides the options of its contents, or when
@@ -79,7 +81,7 @@ class ForeignFormat:
     ending: str
     place: int
     reads: Mapping[Content, Reader]
-    starts: tuple[bytes, ...] = ()
+    signature: Known | None = None
     looks_like: str = ""
     extra: Extra | None = None
     belongs: str = ""
@@ -87,16 +89,22 @@ class ForeignFormat:
     @property
     def is_plain_text(self) -> bool:
         """Whether nothing tells the format but that it is a text, and none of the others."""
-        return not self.starts and not self.looks_like
+        return self.signature is None and not self.looks_like
 
     @property
     def home(self) -> str:
         """Where a file of the format belongs."""
-        return " or ".join(content.option for content in self.reads) + self.belongs
+        return " or ".join(content.option for content in self.holds) + self.belongs
+
+    @property
+    def holds(self) -> dict[Content, Reader]:
+        """Readers by what files may hold: among channels there may be modal coordinates."""
+        among = {COORDINATES: self.reads[CHANNELS]} if CHANNELS in self.reads else {}
+        return among | dict(self.reads)
 
     def fits_bytes(self, head: bytes) -> bool:
         """Whether a binary file begins like this format."""
-        return bool(self.starts) and head.startswith(self.starts)
+        return self.signature is not None and self.signature.fits(head)
 
     def fits_text(self, head: str) -> bool:
         """Whether a text begins like this format."""
@@ -129,7 +137,7 @@ FORMATS = (
             FORCES: Reader("nastran.results.op2.read_op2", "an .op2", "OP2"),
             STRESSES: Reader("nastran.results.op2_stresses.read_op2_stresses", "an .op2", "OP2"),
         },
-        starts=OP2.starts,
+        signature=OP2,
     ),
     ForeignFormat(
         "h5",
@@ -141,7 +149,7 @@ FORMATS = (
             MESH: Reader("nastran.results.h5.read_h5_model", "the MSC .h5", "the same MSC .h5"),
             STRESSES: Reader("nastran.results.h5_stresses.read_h5_stresses", "an MSC .h5", "MSC .h5"),
         },
-        starts=HDF5.starts,
+        signature=HDF5,
         extra=Extra("h5py", "MSC HDF5 input"),
     ),
     ForeignFormat(
@@ -158,7 +166,7 @@ FORMATS = (
         ending=".parquet",
         place=6,
         reads={COORDINATES: Reader("histories.text.read_parquet_history", ".parquet")},
-        starts=PARQUET.starts,
+        signature=PARQUET,
         belongs=", or, if it is a table of a case, to case.toml",
     ),
     ForeignFormat(
@@ -175,12 +183,12 @@ FORMATS = (
 
 def formats_called(content: Content) -> str:
     """Formats that hold a content, as messages call them."""
-    return one_of([form.reads[content].called for form in FORMATS if content in form.reads])
+    return one_of([form.holds[content].called for form in FORMATS if content in form.holds])
 
 
 def formats_in_help(content: Content, last: str = " or ") -> str:
     """Formats that hold a content, as the help of its option calls them."""
-    return one_of([reader.in_help for form in FORMATS if (reader := form.reads.get(content)) and reader.in_help], last)
+    return one_of([reader.in_help for form in FORMATS if (reader := form.holds.get(content)) and reader.in_help], last)
 
 
 def all_formats() -> str:

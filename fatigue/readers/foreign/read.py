@@ -12,10 +12,13 @@ from fatigue.errors import DataError, Problem, refuse
 from fatigue.files.extras import install_command
 from fatigue.files.misplaced import HEAD, known_format, own_format, unknown_binary
 from fatigue.files.naming import missing_foreign_file
+from fatigue.readers.foreign.channels.coordinates import coordinates_of
+from fatigue.readers.foreign.channels.group import ChannelGroup
 from fatigue.readers.foreign.fe.model import FeModel
 from fatigue.readers.foreign.fe.results import FeResults
 from fatigue.readers.foreign.fe.shell_stress import ShellStresses
 from fatigue.readers.foreign.formats import (
+    CHANNELS,
     COORDINATES,
     FORCES,
     FORMATS,
@@ -63,33 +66,42 @@ def read_forces(
     path: Path, subcase: int | None, interface: Collection[int] = (), loads: Collection[int] | None = ()
 ) -> FeResults:
     """Grid point forces from any format that holds them, with static subcases that are interface modes or loads."""
-    results: FeResults = _reader(path, FORCES)(path, subcase, interface, loads)
+    results: FeResults = _reader(path, FORCES)[1](path, subcase, interface, loads)
     return results
 
 
 def read_model(path: Path) -> FeModel:
     """Geometry from any format that holds it."""
-    model: FeModel = _reader(path, MESH)(path)
+    model: FeModel = _reader(path, MESH)[1](path)
     return model
 
 
 def read_stresses(path: Path, wanted: NDArray[np.int64]) -> ShellStresses:
     """Stresses of the ``wanted`` shells from any format that holds them."""
-    stresses: ShellStresses = _reader(path, STRESSES)(path, wanted)
+    stresses: ShellStresses = _reader(path, STRESSES)[1](path, wanted)
     return stresses
 
 
 def read_coordinates(path: Path, columns: dict[str, int] | None, time_column: str | None) -> ForeignHistory:
-    """Modal coordinates from any format that holds them."""
-    history: ForeignHistory = _reader(path, COORDINATES)(path, columns, time_column)
+    """Modal coordinates from any format that holds them, be it among other channels."""
+    form, reader = _reader(path, COORDINATES)
+    if COORDINATES not in form.reads:
+        return coordinates_of(path, reader(path), columns, time_column)
+    history: ForeignHistory = reader(path, columns, time_column)
     return history
 
 
-def _reader(path: Path, content: Content) -> Callable[..., Any]:
-    """Function that reads a content of a file; a file that is sound and in the wrong place is refused."""
+def read_channels(path: Path) -> tuple[ChannelGroup, ...]:
+    """All channels of a file, in groups, from any format that holds them."""
+    groups: tuple[ChannelGroup, ...] = _reader(path, CHANNELS)[1](path)
+    return groups
+
+
+def _reader(path: Path, content: Content) -> tuple[ForeignFormat, Callable[..., Any]]:
+    """Format of a file and its reader of a content; a file that is sound and in the wrong place is refused."""
     form = recognise(path)
     own = own_format(path) if form.is_plain_text else None  # the case itself and its register are texts, too
-    reader = form.reads.get(content)
+    reader = form.holds.get(content)
     if own is not None and (reader is None or content.option not in own.remedy):
         raise DataError(_misplaced(path, content, f"this is {own.name}", own.remedy))
     if reader is None:
@@ -98,7 +110,7 @@ def _reader(path: Path, content: Content) -> Callable[..., Any]:
         )
     if form.extra is not None:
         _require(form.extra)
-    return reader.load()
+    return form, reader.load()
 
 
 def _misplaced(path: Path, content: Content, what: str, remedy: str) -> Problem:

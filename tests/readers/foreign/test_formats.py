@@ -6,13 +6,23 @@ import pytest
 
 from fatigue.files.extras import REQUIREMENTS
 from fatigue.files.known_formats import OWN
-from fatigue.readers.foreign.formats import COORDINATES, FORCES, FORMATS, MESH, STRESSES, all_formats, formats_called
+from fatigue.readers.foreign.formats import (
+    CHANNELS,
+    COORDINATES,
+    FORCES,
+    FORMATS,
+    MESH,
+    STRESSES,
+    all_formats,
+    formats_called,
+)
 
 PARAMETERS = {
     FORCES: ["path", "subcase", "interface", "loads"],
     MESH: ["path"],
     COORDINATES: ["path", "columns", "time_column"],
     STRESSES: ["path", "wanted"],
+    CHANNELS: ["path"],
 }
 
 
@@ -21,7 +31,7 @@ def test_no_two_formats_are_told_alike():
     for told in ("key", "name", "ending"):
         assert len({getattr(form, told) for form in FORMATS}) == len(FORMATS), told
     assert [form.key for form in FORMATS if form.is_plain_text] == ["text"]
-    assert not [form.key for form in FORMATS if form.starts and form.looks_like]
+    assert not [form.key for form in FORMATS if form.signature and form.looks_like]
 
 
 @pytest.mark.parametrize("form", FORMATS, ids=lambda form: form.key)
@@ -41,7 +51,7 @@ def test_a_format_that_is_read_is_known_where_it_is_not(form):
     """Given for a table of a case, it is told by the same name and by the same first bytes."""
     known = [own for own in OWN if own.name.startswith(form.name)]
     assert known
-    assert {start for own in known for start in own.starts if start} == set(form.starts)
+    assert form.signature is None or form.signature in known
 
 
 def test_what_messages_say_of_the_formats():

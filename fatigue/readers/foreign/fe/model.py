@@ -1,6 +1,6 @@
 """Geometry of an FE model as weld lines need it, the same for every solver and file format."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.weld.mesh import NONE, ShellMesh
+from fatigue.weld.solid.mesh import SolidMesh
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -18,7 +19,8 @@ class FeModel:
     Attributes
     ----------
     source : file
-    mesh : shells and all grids
+    mesh : shells and all grids; without shells in a model of solids
+    solids : solid elements, whose grids are those of ``mesh``; None without any
     frame_node : (k,) grids whose displacement frame (CD) is not the basic one, ascending
     frame : (k, 3, 3) axes of their displacement frames, one in each row, in basic components
     unconfirmed_sections : why the thickness of a property has to be confirmed by hand, by property id
@@ -41,6 +43,7 @@ class FeModel:
     other_cards: Mapping[str, int] = field(default_factory=dict)
     warnings: tuple[Problem, ...] = ()
     included: tuple[Path, ...] = ()
+    solids: SolidMesh | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,6 +68,16 @@ class Shell:
     unconfirmed: str = ""
 
 
+@dataclass(frozen=True, slots=True)
+class Solid:
+    """A solid element as a file gives it: grid ids in the order of ``SolidMesh``, 0 for a mid-side node left out."""
+
+    element: int
+    pid: int
+    corners: tuple[int, ...]
+    mids: tuple[int, ...] = ()
+
+
 def shell_mesh(
     source: str, grids: Mapping[int, NDArray[np.float64]], shells: list[Shell], sections: Mapping[int, Section]
 ) -> ShellMesh:
@@ -72,16 +85,12 @@ def shell_mesh(
 
     Raises
     ------
-    DataError : no shells, an element id used twice, a grid that does not exist or is used twice in one element
+    DataError : an element id used twice, a grid that does not exist or is used twice in one element
     """
-    if not shells:
-        raise DataError(
-            Problem("no_shells", source, "the model has no shell elements", "Give the bulk data that holds the plates")
-        )
     shells = sorted(shells, key=lambda shell: shell.element)
     node = np.array(sorted(grids), np.int64)
     index = {int(n): i for i, n in enumerate(node)}
-    refuse(DataError, _shell_problems(source, shells, index))
+    refuse(DataError, _element_problems(source, shells, index))
     corner = np.full((len(shells), 4), NONE, np.int64)
     mid = np.full((len(shells), 4), NONE, np.int64)
     for row, shell in enumerate(shells):
@@ -105,7 +114,47 @@ def shell_mesh(
     )
 
 
-def _shell_problems(source: str, shells: list[Shell], index: Mapping[int, int]) -> list[Problem]:
+def solid_mesh(
+    source: str, grids: Mapping[int, NDArray[np.float64]], solids: Sequence[Solid], shells: Sequence[Shell]
+) -> SolidMesh | None:
+    """Mesh of grids and solids, whose ids ``shells`` do not have; None without solids.
+
+    Raises
+    ------
+    DataError : neither shells nor solids, an element id used twice, a grid that does not exist or is used twice in one
+        element
+    """
+    if not solids:
+        if shells:
+            return None
+        what = "the model has neither shell nor solid elements"
+        raise DataError(Problem("no_shells", source, what, "Give the bulk data that holds the plates"))
+    solids = sorted(solids, key=lambda solid: solid.element)
+    node = np.array(sorted(grids), np.int64)
+    index = {int(n): i for i, n in enumerate(node)}
+    refuse(DataError, _element_problems(source, solids, index))
+    both = sorted({solid.element for solid in solids} & {shell.element for shell in shells})
+    if both:
+        where = f"{source}, element {both[0]}"
+        raise DataError(
+            Problem("element_twice", where, "a shell and a solid have one element id", "Give it another id")
+        )
+    corner = np.full((len(solids), 8), NONE, np.int64)
+    mid = np.full((len(solids), 12), NONE, np.int64)
+    for row, solid in enumerate(solids):
+        corner[row, : len(solid.corners)] = [index[n] for n in solid.corners]
+        mid[row, : len(solid.mids)] = [index[n] if n else NONE for n in solid.mids]
+    return SolidMesh(
+        node=node,
+        xyz=np.array([grids[int(n)] for n in node], np.float64).reshape(-1, 3),
+        element=np.array([solid.element for solid in solids], np.int64),
+        corner=corner,
+        mid=mid,
+        pid=np.array([solid.pid for solid in solids], np.int64),
+    )
+
+
+def _element_problems(source: str, shells: Sequence[Shell | Solid], index: Mapping[int, int]) -> list[Problem]:
     """Duplicate elements, missing grids and collapsed elements, at most ten of them."""
     problems = []
     for before, shell in zip([None, *shells], shells, strict=False):
@@ -128,7 +177,8 @@ def in_mm(model: FeModel, unit_length: float) -> FeModel:
     """Model in mm, from one whose unit of length is ``unit_length`` mm."""
     mesh = model.mesh
     scaled = {name: getattr(mesh, name) * unit_length for name in ("xyz", "thickness", "offset")}
-    return replace(model, mesh=replace(mesh, **scaled))
+    solids = model.solids and replace(model.solids, xyz=model.solids.xyz * unit_length)
+    return replace(model, mesh=replace(mesh, **scaled), solids=solids)
 
 
 def to_basic(values: NDArray[np.floating], node: NDArray[np.int64], model: FeModel) -> NDArray[np.floating]:

@@ -13,7 +13,10 @@ from fatigue.readers.foreign.fe.static_case import StaticCase
 SHELL_KINDS = frozenset(
     {"QUAD4", "QUADR", "QUAD8", "TRIA3", "TRIAR", "TRIA6", "QUAD144", "QUAD4LC", "QUAD4K", "TRIA3K"}
 )
-"""Names of shell elements in force rows."""
+"""Names of shell elements in force rows; readers of other solvers than NASTRAN give theirs one of these."""
+
+SOLID_KINDS = frozenset({"HEXA", "PENTA", "TETRA", "PYRAM"})
+"""Names of solid elements in force rows, alike."""
 
 TOTALS = "*TOTALS*"
 _OTHER_ROWS = frozenset({"THERMAL", "INERTIA", "CONTACT", "DAMPING", "DMIG", "TOTAL", "TOTALS"})

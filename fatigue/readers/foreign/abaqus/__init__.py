@@ -1,0 +1,1 @@
+"""Abaqus: the text that the script writes, and decks (.inp)."""

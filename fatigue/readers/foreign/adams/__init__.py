@@ -1,0 +1,1 @@
+"""Adams: results as XML, and tables with a legend."""

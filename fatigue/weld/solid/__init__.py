@@ -1,0 +1,1 @@
+"""Welds of solid meshes: columns of nodes through the plate."""
