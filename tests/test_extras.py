@@ -59,7 +59,7 @@ def test_the_distribution_is_not_the_one_of_somebody_else():
     assert PROJECT["name"] == "modal-weld-fatigue"
     assert PROJECT["scripts"] == {"fatigue": "fatigue.__main__:main"}
     own = [r for r in PROJECT["optional-dependencies"]["dev"] if "[" in r]
-    assert own == [f"{PROJECT['name']}[cluster,excel,nastran]"]
+    assert own == [f"{PROJECT['name']}[cluster,excel,matlab,nastran,recorders]"]
 
 
 def test_no_text_fetches_the_package_of_somebody_else():
