@@ -121,7 +121,7 @@ def _left_out(
     if not rest:
         return ()
     others = {group.name for group, _ in rest} - {group.name for group, _ in used}
-    where = f", {len(others)} groups of other time bases or without modes among them" if others else ""
+    where = f", all of group {', '.join(sorted(map(repr, others)))} among them" if others else ""
     what = f"{len(rest)} channels that name no mode are left out: {', '.join(repr(name) for _, name in rest[:5])}"
     return (Problem("channels_left_out", str(path), what + where, "Name them by --columns if they are coordinates"),)
 
