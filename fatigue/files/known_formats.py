@@ -31,6 +31,11 @@ class Known:
     at: int = 0
     within: bytes = b""
 
+    @property
+    def is_binary(self) -> bool:
+        """Whether first bytes tell the format, be it with a pattern, not the pattern of a text alone."""
+        return self.starts != (b"",) or not self.within
+
     def fits(self, head: bytes) -> bool:
         """Whether a file begins like this format."""
         begins = head[self.at :].startswith(self.starts)
@@ -66,10 +71,8 @@ BINARY = (
     ),
     Known("a netCDF file", "Write its variables as CSV or Parquet", (b"CDF\x01", b"CDF\x02", b"CDF\x05")),  # [D]
     # measured and simulated channels
-    Known("an NI TDMS file", f"{_CHANNELS} (npTDMS, DIAdem)", (b"TDSm", b"TDSh")),  # [D]
-    Known("an ASAM MDF file (.mf4, .mdf, .dat)", f"{_CHANNELS} (asammdf)", (b"MDF     ", b"UnFinMF ")),  # [D]
-    Known("a universal file (.unv, .uff)", _CHANNELS, within=rb"^ {4}-1 *\r?\n {0,5}\d{1,5}b?[ \r\n]"),  # [D]
-    Known("an RPC III file (.rsp, .drv)", _CHANNELS, (b"FORMAT\0",), within=rb"^FORMAT\0+ *(?:BINARY|ASCII)"),  # [D]
+    Known("an index of an NI TDMS file (.tdms_index)", "Give the .tdms beside it", (b"TDSh",)),  # [D]
+    Known("an ASAM MDF file that was not finalised", "Finalise it (asammdf: MDF(FILE).save)", (b"UnFinMF ",)),  # [D]
     # results of other solvers
     Known(
         "an ANSYS result file (.rst)", _ANSYS_FORCES, (b"d\0\0\0\0\0\0\x80\x0c\0\0\0", b"\0\0\0d\x80\0\0\0\0\0\0\x0c")
@@ -197,7 +200,13 @@ _REGISTER = Known(
     "a weld register", "Give it to --register", within=rb"^(?=[^\n]*\bweld\b)(?=[^\n]*\bline\b)[^\n]*\bstatus\b"
 )
 
-OWN = (PARQUET, HDF5, OP2, MCF, PUNCH, DECK, _CASE, _REGISTER)
+_TABLE = "Give it to fatigue convert --coordinates, or write it as a table: fatigue channels FILE -o TABLE.parquet"
+TDMS = Known("an NI TDMS file", _TABLE, (b"TDSm",))  # [V]
+MDF = Known("an ASAM MDF file (.mf4, .mdf, .dat)", _TABLE, (b"MDF     ",))  # [V]
+UNIVERSAL = Known("a universal file (.unv, .uff)", _TABLE, within=rb"^ {4}-1 *\r?\n {0,5}\d{1,5}b?[ \r\n]")  # [V]
+RPC = Known("an RPC III file (.rsp, .drv)", _TABLE, (b"FORMAT\0",), within=rb"^FORMAT\0+ *(?:BINARY|ASCII)")  # [V]
+
+OWN = (PARQUET, HDF5, OP2, MCF, PUNCH, DECK, _CASE, _REGISTER, TDMS, MDF, UNIVERSAL, RPC)
 """Formats that are read, and where; ``readers.foreign.formats`` names its entries by these."""
 
 ZIPPED = (

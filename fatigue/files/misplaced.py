@@ -50,9 +50,9 @@ def own_format(path: Path, *, text: bool = True) -> Known | None:
     except OSError:
         return None
     if b"\0" in head:
-        return next((known for known in OWN if not known.within and known.fits(head)), None)
+        return next((known for known in OWN if known.is_binary and known.fits(head)), None)
     plain = head.removeprefix(b"\xef\xbb\xbf").replace(b"\r\n", b"\n")
-    return next((known for known in OWN if (text or not known.within) and known.fits(plain)), None)
+    return next((known for known in OWN if (text or known.is_binary) and known.fits(plain)), None)
 
 
 def unknown_binary(path: Path, where: str, remedy: str, *, stray: float = 0.0) -> Problem | None:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from importlib import import_module
 from typing import Any
 
-from fatigue.files.known_formats import DECK, HDF5, OP2, PARQUET, PUNCH, Known
+from fatigue.files.known_formats import DECK, HDF5, MDF, OP2, PARQUET, PUNCH, RPC, TDMS, UNIVERSAL, Known
 
 
 @dataclass(frozen=True, slots=True)
@@ -176,6 +176,41 @@ FORMATS = (
         place=5,
         reads={COORDINATES: Reader("histories.mcf.read_mcf", ".mcf", ".mcf")},
         looks_like="histories.mcf.is_mcf",
+    ),
+    ForeignFormat(
+        "rpc",
+        RPC.name,
+        ending=".rsp",
+        place=9,
+        reads={CHANNELS: Reader("channels.rpc.read_rpc", "an RPC III .rsp", ".rsp")},
+        signature=RPC,
+    ),
+    ForeignFormat(
+        "universal",
+        UNIVERSAL.name,
+        ending=".uff",
+        place=9,
+        reads={CHANNELS: Reader("channels.universal.read_universal", ".uff", ".uff")},
+        signature=UNIVERSAL,
+        extra=Extra("pyuff", "universal file input"),
+    ),
+    ForeignFormat(
+        "mdf",
+        MDF.name,
+        ending=".mf4",
+        place=9,
+        reads={CHANNELS: Reader("channels.mdf.read_mdf", ".mf4", ".mf4")},
+        signature=MDF,
+        extra=Extra("asammdf", "ASAM MDF input"),
+    ),
+    ForeignFormat(
+        "tdms",
+        TDMS.name,
+        ending=".tdms",
+        place=9,
+        reads={CHANNELS: Reader("channels.tdms.read_tdms", ".tdms", ".tdms")},
+        signature=TDMS,
+        extra=Extra("nptdms", "NI TDMS input"),
     ),
 )
 """From the usual to the special: messages name them in this order, a file is recognised in the reverse one."""

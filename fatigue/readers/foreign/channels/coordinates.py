@@ -53,7 +53,8 @@ def coordinates_of(
     if first.time is None and time_column is None and not _names_time(used):
         what = f"{first.called}: {first.without_time or 'the file gives its channels no time'}"
         raise DataError(Problem("no_time", str(path), what, "Export the channels with their time"))
-    return _history(path, used, columns, time_column, _left_out(path, groups, used))
+    warnings = dict.fromkeys(warning for group, _ in used for warning in group.warnings)
+    return _history(path, used, columns, time_column, (*warnings, *_left_out(path, groups, used)))
 
 
 def _history(

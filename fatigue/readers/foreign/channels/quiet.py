@@ -1,0 +1,51 @@
+"""Packages that read a format: what they log, print and warn is left out, what they raise becomes one line."""
+
+import contextlib
+import io
+import logging
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from traceback import walk_tb
+from typing import Any
+
+from fatigue.errors import DataError, Problem
+
+
+@contextmanager
+def quietly(path: Path, package: str, code: str) -> Iterator[None]:
+    """Read a file with a package: whatever a damaged file makes of it is one refusal, and nothing else is shown.
+
+    Raises
+    ------
+    DataError : of this ``code``, if the package raises
+    """
+    log = logging.getLogger(package)
+    level = log.level
+    log.setLevel(logging.CRITICAL + 1)
+    try:
+        with contextlib.redirect_stdout(io.StringIO()), warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            yield
+    except (DataError, MemoryError):
+        raise
+    except Exception as error:
+        _give_up(error)
+        said = " ".join(str(error).split())[:120] or type(error).__name__
+        what = f"the file is damaged or cut: the package {package} says {said!r}"
+        raise DataError(Problem(code, str(path), what, "Copy the file again, or export it anew")) from None
+    finally:
+        log.setLevel(level)
+
+
+def _give_up(error: Exception) -> None:
+    """Close what the package left half-made: it would raise again when it is collected, and nobody could catch that."""
+    for frame, _ in walk_tb(error.__traceback__):
+        half_made: Any = frame.f_locals.get("self")
+        if hasattr(half_made, "_closed"):
+            half_made._closed = True
+            for name in ("_file", "_tempfile", "_mapped_file"):
+                handle: Any = getattr(half_made, name, None)
+                if hasattr(handle, "close"):
+                    handle.close()
