@@ -5,6 +5,7 @@ published description or the source of an open reader, [M] from memory, so that 
 """
 
 import re
+from collections.abc import Collection
 from dataclasses import dataclass
 
 _OP2 = "Request GPFORCE(PLOT) with PARAM,POST,-1 and give the .op2"
@@ -22,7 +23,8 @@ _PANDAS = "Turn it into Parquet: python -c \"import pandas as p; p.{0}('FILE').t
 class Known:
     """A format by name, and the way out of it.
 
-    ``starts`` are bytes at the position ``at``; ``within`` is a pattern that the head must match as well.
+    ``starts`` are bytes at the position ``at``; ``within`` is a pattern that the head must match as well; ``zipped`` is
+    a pattern of the name of a file in a ZIP archive, by which alone such a format is told.
     """
 
     name: str
@@ -30,14 +32,22 @@ class Known:
     starts: tuple[bytes, ...] = (b"",)
     at: int = 0
     within: bytes = b""
+    zipped: str = ""
 
     @property
     def is_binary(self) -> bool:
-        """Whether first bytes tell the format, be it with a pattern, not the pattern of a text alone."""
-        return self.starts != (b"",) or not self.within
+        """Whether its first bytes tell the format, not a pattern that text anywhere in the head may have."""
+        begins = self.starts != (b"",) or not self.within or self.within.startswith((b"^", rb"(?s)^"))
+        return self.zipped == "" and begins
+
+    def fits_archive(self, names: Collection[str]) -> bool:
+        """Whether a ZIP archive of files of these names is of this format."""
+        return self.zipped != "" and any(re.match(self.zipped, name) for name in names)
 
     def fits(self, head: bytes) -> bool:
         """Whether a file begins like this format."""
+        if self.zipped:
+            return False
         begins = head[self.at :].startswith(self.starts)
         return begins and (not self.within or re.search(self.within, head) is not None)
 
@@ -60,15 +70,7 @@ BINARY = (
     Known("an ORC file", _PANDAS.format("read_orc"), (b"ORC",)),  # [V]
     Known("an Avro file", "Write it as Parquet", (b"Obj\x01",)),  # [D]
     Known("an SQLite database", "Write its table as CSV or Parquet", (b"SQLite format 3\0",)),  # [V]
-    Known("a NumPy array (.npy)", "Write its columns, with their names, as CSV or Parquet", (b"\x93NUMPY",)),  # [V]
     Known("a Python pickle", _PANDAS.format("read_pickle"), tuple(bytes((0x80, p)) for p in (2, 3, 4, 5))),  # [V]
-    Known("a MATLAB 7.3 file", f"{_CHANNELS}: writetable", (b"MATLAB 7.3 MAT-file",)),  # [D]
-    Known("a MATLAB file", f"{_CHANNELS}: writetable", (b"MATLAB 5.0 MAT-file",)),  # [V]
-    Known(
-        "a MATLAB 4 file",
-        f"{_CHANNELS}: writetable",
-        within=rb"(?s)^[\0-\x34]\0\0\0.{8}[\0\x01]\0\0\0[\x02-\x40]\0\0\0[A-Za-z]\w*\0",  # [V] little end
-    ),
     Known("a netCDF file", "Write its variables as CSV or Parquet", (b"CDF\x01", b"CDF\x02", b"CDF\x05")),  # [D]
     # measured and simulated channels
     Known("an index of an NI TDMS file (.tdms_index)", "Give the .tdms beside it", (b"TDSh",)),  # [D]
@@ -205,15 +207,25 @@ TDMS = Known("an NI TDMS file", _TABLE, (b"TDSm",))  # [V]
 MDF = Known("an ASAM MDF file (.mf4, .mdf, .dat)", _TABLE, (b"MDF     ",))  # [V]
 UNIVERSAL = Known("a universal file (.unv, .uff)", _TABLE, within=rb"^ {4}-1 *\r?\n {0,5}\d{1,5}b?[ \r\n]")  # [V]
 RPC = Known("an RPC III file (.rsp, .drv)", _TABLE, (b"FORMAT\0",), within=rb"^FORMAT\0+ *(?:BINARY|ASCII)")  # [V]
+NPY = Known("a NumPy array (.npy)", _TABLE, (b"\x93NUMPY",))  # [V]
+NPZ = Known("a NumPy archive (.npz)", _TABLE, zipped=r".*\.npy$")  # [V]
+MATLAB = Known(
+    "a MATLAB file",
+    _TABLE,
+    within=rb"(?s)^(?:MATLAB 5\.0 MAT-file|[\0-\x34]\0\0\0.{8}[\0\x01]\0\0\0[\x02-\x40]\0\0\0[A-Za-z]\w*\0)",
+)  # [V] of version 5 to 7; of version 4, little end
+MATLAB_73 = Known("a MATLAB 7.3 file", _TABLE, (b"MATLAB 7.3 MAT-file",))  # [V]
+WORKBOOK = Known("an Excel workbook (.xlsx)", f"{AS_CSV}, or: fatigue channels FILE -o TABLE.csv", zipped=r"xl/")  # [V]
 
-OWN = (PARQUET, HDF5, OP2, MCF, PUNCH, DECK, _CASE, _REGISTER, TDMS, MDF, UNIVERSAL, RPC)
+OWN = (
+    *(PARQUET, HDF5, OP2, MCF, PUNCH, DECK, _CASE, _REGISTER),
+    *(TDMS, MDF, UNIVERSAL, RPC, NPY, NPZ, MATLAB, MATLAB_73, WORKBOOK),
+)
 """Formats that are read, and where; ``readers.foreign.formats`` names its entries by these."""
 
 ZIPPED = (
-    (r"xl/", Known("an Excel workbook (.xlsx)", AS_CSV)),  # [V]
     (r"content\.xml$", Known("an OpenDocument file (.ods)", AS_CSV)),  # [D]
     (r"(word|ppt)/", Known("an Office document", "Give the table itself as CSV")),  # [D]
-    (r".*\.npy$", Known("a NumPy archive (.npz)", "Write its columns, with their names, as CSV or Parquet")),  # [V]
     (r"modelDescription\.xml$", Known("a simulation unit (.fmu)", _CHANNELS)),  # [D]
 )
 """What a ZIP archive is, by the name of a file in it."""

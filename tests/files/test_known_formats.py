@@ -12,12 +12,10 @@ import zipfile
 from collections.abc import Callable
 from pathlib import Path
 
-import numpy as np
 import pandas as pd
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
-import scipy.io
 from pyarrow import feather, orc
 
 from fatigue.case import load_case
@@ -64,18 +62,6 @@ def _sqlite() -> bytes:
         return base.serialize()
 
 
-def _excel(buffer: io.BytesIO) -> None:
-    pytest.importorskip("xlsxwriter")
-    FRAME.to_excel(buffer, index=False, engine="xlsxwriter")
-
-
-def _matlab_73(buffer: io.BytesIO) -> None:
-    h5py = pytest.importorskip("h5py")
-    with h5py.File(buffer, "w", userblock_size=512) as file:
-        file["q"] = np.ones(3)
-    buffer.getbuffer()[:19] = b"MATLAB 7.3 MAT-file"
-
-
 FOREIGN = {
     "a gzip archive": lambda: gzip.compress(CSV),
     "a bzip2 archive": lambda: bz2.compress(CSV),
@@ -84,9 +70,7 @@ FOREIGN = {
     "a tar archive": lambda: _written(_tar),
     "a ZIP archive": lambda: _archive(q=CSV),
     "a ZIP archive, or an Excel workbook, cut short": lambda: _archive(q=CSV)[:40],
-    "an Excel workbook (.xlsx)": lambda: _written(_excel),
     "an OpenDocument file (.ods)": lambda: _archive(mimetype=b"", **{"content.xml": b""}),
-    "a NumPy archive (.npz)": lambda: _written(lambda buffer: np.savez(buffer, q=np.ones(3))),
     "a simulation unit (.fmu)": lambda: _archive(**{"modelDescription.xml": b""}),
     "an old Excel workbook (.xls)": lambda: (
         b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1" + bytes(504) + "Workbook".encode("utf-16-le")
@@ -96,10 +80,6 @@ FOREIGN = {
     "an ORC file": lambda: _written(lambda buffer: orc.write_table(TABLE, buffer)),
     "an SQLite database": _sqlite,
     "a Python pickle": lambda: pickle.dumps({"mode": [1]}),
-    "a NumPy array (.npy)": lambda: _written(lambda buffer: np.save(buffer, np.ones(3))),
-    "a MATLAB file": lambda: _written(lambda buffer: scipy.io.savemat(buffer, {"q": np.ones(3)})),
-    "a MATLAB 4 file": lambda: _written(lambda buffer: scipy.io.savemat(buffer, {"q": np.ones(3)}, format="4")),
-    "a MATLAB 7.3 file": lambda: _written(_matlab_73),
     "an ANSYS result file (.rst)": lambda: ANSYS + bytes(400),
     "an ANSYS binary file": lambda: ANSYS[:8] + b"\x04" + ANSYS[9:] + bytes(400),
     "an Abaqus results file (.fil)": lambda: struct.pack("<iqq", 4096, 9, 1921) + bytes(100),

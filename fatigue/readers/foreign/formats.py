@@ -7,12 +7,28 @@ a binary one; a text, as an Abaqus deck, has ``looks_like="abaqus.deck.is_deck"`
 ``CHANNELS`` gives modal coordinates, too: ``channels.coordinates`` finds them among the groups that it reads.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from importlib import import_module
 from typing import Any
 
-from fatigue.files.known_formats import DECK, HDF5, MDF, OP2, PARQUET, PUNCH, RPC, TDMS, UNIVERSAL, Known
+from fatigue.files.known_formats import (
+    DECK,
+    HDF5,
+    MATLAB,
+    MATLAB_73,
+    MDF,
+    NPY,
+    NPZ,
+    OP2,
+    PARQUET,
+    PUNCH,
+    RPC,
+    TDMS,
+    UNIVERSAL,
+    WORKBOOK,
+    Known,
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,6 +121,10 @@ class ForeignFormat:
     def fits_bytes(self, head: bytes) -> bool:
         """Whether a binary file begins like this format."""
         return self.signature is not None and self.signature.fits(head)
+
+    def fits_archive(self, names: Collection[str]) -> bool:
+        """Whether a ZIP archive of files of these names is of this format."""
+        return self.signature is not None and self.signature.fits_archive(names)
 
     def fits_text(self, head: str) -> bool:
         """Whether a text begins like this format."""
@@ -211,6 +231,48 @@ FORMATS = (
         reads={CHANNELS: Reader("channels.tdms.read_tdms", ".tdms", ".tdms")},
         signature=TDMS,
         extra=Extra("nptdms", "NI TDMS input"),
+    ),
+    ForeignFormat(
+        "npy",
+        NPY.name,
+        ending=".npy",
+        place=8,
+        reads={CHANNELS: Reader("channels.arrays.read_npy", ".npy")},
+        signature=NPY,
+    ),
+    ForeignFormat(
+        "npz",
+        NPZ.name,
+        ending=".npz",
+        place=8,
+        reads={CHANNELS: Reader("channels.arrays.read_npz", ".npz", ".npz")},
+        signature=NPZ,
+    ),
+    ForeignFormat(
+        "mat",
+        MATLAB.name,
+        ending=".mat",
+        place=8,
+        reads={CHANNELS: Reader("channels.matlab.read_matlab", ".mat", ".mat")},
+        signature=MATLAB,
+    ),
+    ForeignFormat(
+        "mat73",
+        MATLAB_73.name,
+        ending="MATLAB 7.3",
+        place=8,
+        reads={CHANNELS: Reader("channels.matlab_73.read_matlab_73", "MATLAB 7.3")},
+        signature=MATLAB_73,
+        extra=Extra("h5py", "MATLAB 7.3 input"),
+    ),
+    ForeignFormat(
+        "xlsx",
+        WORKBOOK.name,
+        ending=".xlsx",
+        place=8,
+        reads={CHANNELS: Reader("channels.workbook.read_workbook", ".xlsx", ".xlsx")},
+        signature=WORKBOOK,
+        extra=Extra("python_calamine", "Excel input"),
     ),
 )
 """From the usual to the special: messages name them in this order, a file is recognised in the reverse one."""
