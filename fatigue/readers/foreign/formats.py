@@ -110,7 +110,7 @@ class ForeignFormat:
     @property
     def home(self) -> str:
         """Where a file of the format belongs."""
-        return " or ".join(content.option for content in self.holds) + self.belongs
+        return " or ".join(content.option for content in self.holds if content != CHANNELS) + self.belongs
 
     @property
     def holds(self) -> dict[Content, Reader]:
@@ -137,7 +137,10 @@ FORMATS = (
         "a text table",
         ending="a text table",
         place=7,
-        reads={COORDINATES: Reader("histories.text.read_text_history", "a text table", "CSV, text")},
+        reads={
+            COORDINATES: Reader("histories.text.read_text_history", "a text table", "CSV, text"),
+            CHANNELS: Reader("channels.table.read_text_channels", "a text table", "CSV, text"),
+        },
         belongs=" if it holds them",
     ),
     ForeignFormat(
@@ -185,7 +188,10 @@ FORMATS = (
         PARQUET.name,
         ending=".parquet",
         place=6,
-        reads={COORDINATES: Reader("histories.text.read_parquet_history", ".parquet")},
+        reads={
+            COORDINATES: Reader("histories.text.read_parquet_history", ".parquet"),
+            CHANNELS: Reader("channels.table.read_parquet_channels", ".parquet"),
+        },
         signature=PARQUET,
         belongs=", or, if it is a table of a case, to case.toml",
     ),
@@ -194,7 +200,10 @@ FORMATS = (
         "an ANSYS file of modal coordinates",
         ending=".mcf",
         place=5,
-        reads={COORDINATES: Reader("histories.mcf.read_mcf", ".mcf", ".mcf")},
+        reads={
+            COORDINATES: Reader("histories.mcf.read_mcf", ".mcf", ".mcf"),
+            CHANNELS: Reader("channels.table.read_mcf_channels", ".mcf", ".mcf"),
+        },
         looks_like="histories.mcf.is_mcf",
     ),
     ForeignFormat(
