@@ -115,7 +115,7 @@ SUFFIXES = {
     ".master": HINTS[5],
     ".dball": HINTS[5],
     ".dac": Known("an nCode DAC channel", _CHANNELS),
-    ".res": Known("Adams results (.res)", _CHANNELS),
+    ".res": Known("Adams results (.res)", "Write them as XML: RESULTS/XRF"),
     ".req": Known("Adams requests (.req)", _CHANNELS),
     ".t16": Known("Marc results", "Write the nodal forces of the weld elements as a CSV of element_forces"),
     ".stl": Known("an STL surface", "Give the NASTRAN deck (.bdf): a surface has no elements with thickness"),
@@ -131,8 +131,7 @@ TEXT = (
         "an Excel table as XML", AS_CSV, within=rb"(?s)^\s*<\?xml.*urn:schemas-microsoft-com:office:spreadsheet"
     ),  # [D]
     Known("a VTK picture", "Give the NASTRAN deck (.bdf)", within=rb"(?s)^(?:# vtk DataFile|\s*(?:<\?xml.*)?<VTKFile)"),
-    Known("Adams results (XML)", _CHANNELS, within=rb"(?s)^\s*<\?xml.*<Results"),  # [D]
-    Known("an XML file", "Give the table itself as CSV", within=rb"^\s*<\?xml"),  # [V]
+    Known("an XML file", "Give the table itself as CSV", within=rb"(?s)^\s*<\?xml(?!.*<Results[^>]*xrf)"),  # [V]
     Known(
         "a JSON file",
         "Give a table as CSV or Parquet",
@@ -207,6 +206,7 @@ TDMS = Known("an NI TDMS file", _TABLE, (b"TDSm",))  # [V]
 MDF = Known("an ASAM MDF file (.mf4, .mdf, .dat)", _TABLE, (b"MDF     ",))  # [V]
 UNIVERSAL = Known("a universal file (.unv, .uff)", _TABLE, within=rb"^ {4}-1 *\r?\n {0,5}\d{1,5}b?[ \r\n]")  # [V]
 RPC = Known("an RPC III file (.rsp, .drv)", _TABLE, (b"FORMAT\0",), within=rb"^FORMAT\0+ *(?:BINARY|ASCII)")  # [V]
+ADAMS = Known("Adams results (.res, XML)", _TABLE, within=rb"(?s)^\s*<\?xml.*<Results[^>]*xrf")  # [V]
 NPY = Known("a NumPy array (.npy)", _TABLE, (b"\x93NUMPY",))  # [V]
 NPZ = Known("a NumPy archive (.npz)", _TABLE, zipped=r".*\.npy$")  # [V]
 MATLAB = Known(
@@ -219,7 +219,7 @@ WORKBOOK = Known("an Excel workbook (.xlsx)", f"{AS_CSV}, or: fatigue channels F
 
 OWN = (
     *(PARQUET, HDF5, OP2, MCF, PUNCH, DECK, _CASE, _REGISTER),
-    *(TDMS, MDF, UNIVERSAL, RPC, NPY, NPZ, MATLAB, MATLAB_73, WORKBOOK),
+    *(TDMS, MDF, UNIVERSAL, RPC, NPY, NPZ, MATLAB, MATLAB_73, WORKBOOK, ADAMS),
 )
 """Formats that are read, and where; ``readers.foreign.formats`` names its entries by these."""
 

@@ -96,7 +96,6 @@ FOREIGN = {
     "an Adams model (.adm)": lambda: b"!ADAMS/View model\nPART/1, GROUND\n",
     "an STL surface": lambda: b"solid body\n facet normal 0 0 1\n",
     "a STEP file": lambda: b"ISO-10303-21;\nHEADER;\n",
-    "Adams results (XML)": lambda: b'<?xml version="1.0"?>\n<Results xmlns="x">\n',
     "an XML file": lambda: b'<?xml version="1.0"?>\n<a/>\n',
     "a web page": lambda: b"<!DOCTYPE html>\n<html>404</html>\n",
     "a JSON file": lambda: b'{"mode": [1, 2]}\n',

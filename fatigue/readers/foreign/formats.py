@@ -13,6 +13,7 @@ from importlib import import_module
 from typing import Any
 
 from fatigue.files.known_formats import (
+    ADAMS,
     DECK,
     HDF5,
     MATLAB,
@@ -180,7 +181,10 @@ FORMATS = (
         PUNCH.name,
         ending=".pch",
         place=3,
-        reads={FORCES: Reader("nastran.results.punch.read_punch", "a punch file", "punch")},
+        reads={
+            FORCES: Reader("nastran.results.punch.read_punch", "a punch file", "punch"),
+            CHANNELS: Reader("nastran.results.solution_punch.read_solution_punch", "punch (SDISPLACEMENT)", "punch"),
+        },
         looks_like="nastran.results.punch.is_punch",
     ),
     ForeignFormat(
@@ -282,6 +286,14 @@ FORMATS = (
         reads={CHANNELS: Reader("channels.workbook.read_workbook", ".xlsx", ".xlsx")},
         signature=WORKBOOK,
         extra=Extra("python_calamine", "Excel input"),
+    ),
+    ForeignFormat(
+        "res",
+        ADAMS.name,
+        ending=".res",
+        place=8,
+        reads={CHANNELS: Reader("adams.results_xml.read_adams_results", "Adams .res (XML)", "Adams .res")},
+        looks_like="adams.results_xml.is_adams_results",
     ),
 )
 """From the usual to the special: messages name them in this order, a file is recognised in the reverse one."""

@@ -60,9 +60,10 @@ def test_what_messages_say_of_the_formats():
     assert formats_called(MESH) == "the deck (.bdf, .dat) or the MSC .h5"
     assert formats_called(STRESSES) == "an .op2 or an MSC .h5"
     assert formats_called(COORDINATES) == (
-        "a text table, .parquet, .mcf, an RPC III .rsp, .uff, .mf4, .tdms, .npy, .npz, .mat, MATLAB 7.3 or .xlsx"
+        "a text table, punch (SDISPLACEMENT), .parquet, .mcf, an RPC III .rsp, .uff, .mf4, .tdms, .npy, .npz, .mat, "
+        "MATLAB 7.3, .xlsx or Adams .res (XML)"
     )
     assert all_formats() == (
-        ".op2, MSC .h5, .pch, .bdf, .mcf, .parquet, a text table, .npy, .npz, .mat, MATLAB 7.3, .xlsx, .rsp, .uff, "
-        ".mf4 or .tdms"
+        ".op2, MSC .h5, .pch, .bdf, .mcf, .parquet, a text table, .npy, .npz, .mat, MATLAB 7.3, .xlsx, .res, "
+        ".rsp, .uff, .mf4 or .tdms"
     )
