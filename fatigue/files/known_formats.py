@@ -24,7 +24,8 @@ class Known:
     """A format by name, and the way out of it.
 
     ``starts`` are bytes at the position ``at``; ``within`` is a pattern that the head must match as well; ``zipped`` is
-    a pattern of the name of a file in a ZIP archive, by which alone such a format is told.
+    a pattern of the name of a file in a ZIP archive, by which alone such a format is told; ``has_zeros``: a format that
+    is told by a pattern alone may be binary.
     """
 
     name: str
@@ -33,12 +34,12 @@ class Known:
     at: int = 0
     within: bytes = b""
     zipped: str = ""
+    has_zeros: bool = False
 
     @property
     def is_binary(self) -> bool:
         """Whether its first bytes tell the format, not a pattern that text anywhere in the head may have."""
-        begins = self.starts != (b"",) or not self.within or self.within.startswith((b"^", rb"(?s)^"))
-        return self.zipped == "" and begins
+        return self.zipped == "" and (self.starts != (b"",) or not self.within or self.has_zeros)
 
     def fits_archive(self, names: Collection[str]) -> bool:
         """Whether a ZIP archive of files of these names is of this format."""
@@ -204,7 +205,9 @@ _REGISTER = Known(
 _TABLE = "Give it to fatigue convert --coordinates, or write it as a table: fatigue channels FILE -o TABLE.parquet"
 TDMS = Known("an NI TDMS file", _TABLE, (b"TDSm",))  # [V]
 MDF = Known("an ASAM MDF file (.mf4, .mdf, .dat)", _TABLE, (b"MDF     ",))  # [V]
-UNIVERSAL = Known("a universal file (.unv, .uff)", _TABLE, within=rb"^ {4}-1 *\r?\n {0,5}\d{1,5}b?[ \r\n]")  # [V]
+UNIVERSAL = Known(
+    "a universal file (.unv, .uff)", _TABLE, within=rb"^ {4}-1 *\r?\n {0,5}\d{1,5}b?[ \r\n]", has_zeros=True
+)  # [V]
 RPC = Known("an RPC III file (.rsp, .drv)", _TABLE, (b"FORMAT\0",), within=rb"^FORMAT\0+ *(?:BINARY|ASCII)")  # [V]
 ADAMS = Known("Adams results (.res, XML)", _TABLE, within=rb"(?s)^\s*<\?xml.*<Results[^>]*xrf")  # [V]
 NPY = Known("a NumPy array (.npy)", _TABLE, (b"\x93NUMPY",))  # [V]
@@ -213,6 +216,7 @@ MATLAB = Known(
     "a MATLAB file",
     _TABLE,
     within=rb"(?s)^(?:MATLAB 5\.0 MAT-file|[\0-\x34]\0\0\0.{8}[\0\x01]\0\0\0[\x02-\x40]\0\0\0[A-Za-z]\w*\0)",
+    has_zeros=True,
 )  # [V] of version 5 to 7; of version 4, little end
 MATLAB_73 = Known("a MATLAB 7.3 file", _TABLE, (b"MATLAB 7.3 MAT-file",))  # [V]
 WORKBOOK = Known("an Excel workbook (.xlsx)", f"{AS_CSV}, or: fatigue channels FILE -o TABLE.csv", zipped=r"xl/")  # [V]

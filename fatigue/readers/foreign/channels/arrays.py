@@ -59,7 +59,9 @@ def _array(path: Path, file: IO[bytes], size: int, which: str) -> NDArray[Any]:
             raise DataError(Problem("cut", f"{path}{which}", what, "Copy the file again"))
         data = file.read(count * kind.itemsize)
         return np.frombuffer(data, kind, count).reshape(shape, order="F" if order else "C")
-    except (ValueError, EOFError, TypeError, SyntaxError, zipfile.BadZipFile) as error:
+    except (DataError, MemoryError):
+        raise
+    except Exception as error:  # the header is a text that numpy parses as Python, with its errors
         raise _damaged(path, which, error) from None
 
 

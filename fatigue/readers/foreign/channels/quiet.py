@@ -21,22 +21,33 @@ def quietly(path: Path, package: str, code: str) -> Iterator[None]:
     ------
     DataError : of this ``code``, if the package raises
     """
-    log = logging.getLogger(package)
-    level = log.level
-    log.setLevel(logging.CRITICAL + 1)
+    logs = [log for log in _loggers(package) if not log.disabled]
+    for log in logs:
+        log.disabled = True
     try:
         with contextlib.redirect_stdout(io.StringIO()), warnings.catch_warnings():
             warnings.simplefilter("ignore")
             yield
-    except (DataError, MemoryError):
+    except DataError:
         raise
+    except MemoryError:
+        what = "it says to hold more values than memory has room for: it is damaged, or too long"
+        raise DataError(Problem(code, str(path), what, "Copy the file again, or export fewer channels")) from None
     except Exception as error:
         _give_up(error)
         said = " ".join(str(error).split())[:120] or type(error).__name__
         what = f"the file is damaged or cut: the package {package} says {said!r}"
         raise DataError(Problem(code, str(path), what, "Copy the file again, or export it anew")) from None
     finally:
-        log.setLevel(level)
+        for log in logs:
+            log.disabled = False
+
+
+def _loggers(package: str) -> list[logging.Logger]:
+    """All loggers of a package, each of which may have a level and an output of its own."""
+    logging.getLogger(package)
+    known = logging.root.manager.loggerDict.items()
+    return [log for name, log in known if f"{name}.".startswith(f"{package}.") and isinstance(log, logging.Logger)]
 
 
 def _give_up(error: Exception) -> None:

@@ -52,7 +52,7 @@ def read_tdms(path: Path) -> tuple[ChannelGroup, ...]:
 def _opened(path: Path) -> Iterator[Any]:
     import nptdms  # noqa: PLC0415 - the package of this format alone
 
-    with quietly(path, "nptdms", "tdms_damaged"), nptdms.TdmsFile.open(path) as file:
+    with quietly(path, "nptdms", "tdms_damaged"), path.open("rb") as data, nptdms.TdmsFile.open(data) as file:
         yield file
 
 

@@ -5,38 +5,16 @@ import pytest
 
 from fatigue.errors import DataError
 from fatigue.readers.foreign.read import read_channels, read_coordinates, recognise
+from tests.readers.foreign.nastran.solution_punch_writer import dollar, heading, row, solution_punch
 
 T = 0.005 * np.arange(12)
 Q = np.random.default_rng(2).standard_normal((3, 12))
 MODES = (1, 2, 11)
 
 
-def dollar(text, line):
-    """A $ line with its number."""
-    return f"{text:<72}{line:8d}\n"
-
-
-def row(first, kind, value):
-    """A row of a mode or a time, and its continuation."""
-    values = "".join(f"{v:18.6E}" for v in (value, 0.0, 0.0))
-    zeros = "".join(f"{v:18.6E}" for v in (0.0, 0.0, 0.0))
-    return f"{first:>10}       {kind}{values}       7\n" + f"{'-CONT-':<18}{zeros}       8\n"
-
-
-def heading(word, subcase):
-    """The lines above a block."""
-    lines = ["$TITLE   = ride", "$SUBTITLE=", "$LABEL   =", f"${word} - SOLUTION SET", "$REAL OUTPUT"]
-    return "".join(dollar(text, k) for k, text in enumerate([*lines, f"$SUBCASE ID = {subcase:12d}"], 1))
-
-
 def by_time(subcase=1, word="DISPLACEMENTS", q=Q):
-    """SORT1: a block for each time."""
-    return "".join(
-        heading(word, subcase)
-        + dollar(f"$TIME = {t:.7E}", 7)
-        + "".join(row(mode, "M", q[k, n]) for k, mode in enumerate(MODES))
-        for n, t in enumerate(T)
-    )
+    """SORT1."""
+    return solution_punch(T, q, MODES, subcase=subcase, word=word)
 
 
 def by_mode(subcase=1, q=Q):
