@@ -26,6 +26,10 @@ class WeldSources:
         Path | None,
         Option("--node-lists", "CSV weld,order,node with weld lines of your own."),
     ] = None
+    lines: Annotated[
+        Path | None,
+        Option("--lines", "CSV line,point,x_mm,y_mm,z_mm with weld lines as points in space, for any mesh."),
+    ] = None
     sets: Annotated[tuple[int, ...], Option("--set", "Id of a node set whose mesh edges are welds; repeatable.")] = ()
     markers: Annotated[
         tuple[str, ...], Option("--marker", "Card that lies on welds: PLOTEL, CBAR, CBEAM; repeatable.")
