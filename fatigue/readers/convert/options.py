@@ -26,10 +26,6 @@ class WeldSources:
         Path | None,
         Option("--node-lists", "CSV weld,order,node with weld lines of your own."),
     ] = None
-    lines: Annotated[
-        Path | None,
-        Option("--lines", "CSV line,point,x_mm,y_mm,z_mm with weld lines as points in space, for any mesh."),
-    ] = None
     sets: Annotated[tuple[int, ...], Option("--set", "Id of a node set whose mesh edges are welds; repeatable.")] = ()
     markers: Annotated[
         tuple[str, ...], Option("--marker", "Card that lies on welds: PLOTEL, CBAR, CBEAM; repeatable.")
@@ -39,6 +35,10 @@ class WeldSources:
         Option("--detect/--no-detect", "Search the mesh for weld lines; default: if nothing is marked."),
     ] = None
     candidates: Annotated[bool, Option("--candidates", "Assess flat changes of property and folds as well.")] = False
+    lines: Annotated[
+        Path | None,
+        Option("--lines", "CSV line,point,x_mm,y_mm,z_mm with weld lines as points in space, for any mesh."),
+    ] = None
 
     def __post_init__(self) -> None:
         """Take text for a path."""
