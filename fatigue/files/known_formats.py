@@ -15,7 +15,9 @@ UNPACK = "Unpack it and give the file inside"
 _ANSYS_FORCES = (
     "Write the nodal forces of the weld elements with ESEL, FORCE,STATIC and NFORCE as a CSV of element_forces"
 )
-_ABAQUS_FORCES = "Write NFORC of the weld elements with Abaqus Python as a CSV of element_forces"
+_ABAQUS_FORCES = (
+    "Export it with abaqus_export.py (fatigue example DIR --requests), and give the text to --forces and --mesh"
+)
 _PANDAS = "Turn it into Parquet: python -c \"import pandas as p; p.{0}('FILE').to_parquet('FILE.parquet')\""
 
 
@@ -158,11 +160,6 @@ TEXT = (
         "an ANSYS archive (.cdb)", "Write the mesh as a NASTRAN deck", within=rb"(?im)^(?:NBLOCK,|EBLOCK,|/PREP7|/COM,)"
     ),
     Known("an LS-DYNA deck", "Write the mesh as a NASTRAN deck", within=rb"(?im)^\*KEYWORD"),  # [D]
-    Known(
-        "an Abaqus deck (.inp)",
-        "Write the mesh as a NASTRAN deck",
-        within=rb"(?im)^\*(?:HEADING|NODE|ELEMENT|PART|ASSEMBLY|SHELL SECTION)\b",  # [D]
-    ),
     Known("Abaqus results as text (.fil)", _ABAQUS_FORCES, within=rb"^\*I +\d+I +\d?1921"),  # [D]
     Known("an STL surface", "Give the NASTRAN deck (.bdf)", within=rb"(?i)^\s*solid\b[^\n]*\n\s*facet normal"),  # [D]
     Known("a STEP file", "Give the NASTRAN deck (.bdf)", within=rb"^ISO-10303-21;"),  # [D]
@@ -209,6 +206,12 @@ UNIVERSAL = Known(
     "a universal file (.unv, .uff)", _TABLE, within=rb"^ {4}-1 *\r?\n {0,5}\d{1,5}b?[ \r\n]", has_zeros=True
 )  # [V]
 RPC = Known("an RPC III file (.rsp, .drv)", _TABLE, (b"FORMAT\0",), within=rb"^FORMAT\0+ *(?:BINARY|ASCII)")  # [V]
+EXPORT = Known("a text of the export script", "Give it to --forces and --mesh", within=rb"\Afatigue export \d")  # [V]
+INP = Known(
+    "an Abaqus deck (.inp)",
+    "Give it to fatigue convert --mesh",
+    within=rb"(?i)\A(?:\s*\*\*[^\n]*\n|\s*\n)*\s*\*\s*(?:heading|node|element|part|assembly|include|preprint|shell|solid|nset|elset)",
+)  # [V] by CalculiX
 ADAMS = Known("Adams results (.res, XML)", _TABLE, within=rb"(?s)^\s*<\?xml.*<Results[^>]*xrf")  # [V]
 NPY = Known("a NumPy array (.npy)", _TABLE, (b"\x93NUMPY",))  # [V]
 NPZ = Known("a NumPy archive (.npz)", _TABLE, zipped=r".*\.npy$")  # [V]
@@ -223,7 +226,7 @@ WORKBOOK = Known("an Excel workbook (.xlsx)", f"{AS_CSV}, or: fatigue channels F
 
 OWN = (
     *(PARQUET, HDF5, OP2, MCF, PUNCH, DECK, _CASE, _REGISTER),
-    *(TDMS, MDF, UNIVERSAL, RPC, NPY, NPZ, MATLAB, MATLAB_73, WORKBOOK, ADAMS),
+    *(TDMS, MDF, UNIVERSAL, RPC, NPY, NPZ, MATLAB, MATLAB_73, WORKBOOK, ADAMS, EXPORT, INP),
 )
 """Formats that are read, and where; ``readers.foreign.formats`` names its entries by these."""
 

@@ -15,7 +15,9 @@ from typing import Any
 from fatigue.files.known_formats import (
     ADAMS,
     DECK,
+    EXPORT,
     HDF5,
+    INP,
     MATLAB,
     MATLAB_73,
     MDF,
@@ -294,6 +296,25 @@ FORMATS = (
         place=8,
         reads={CHANNELS: Reader("adams.results_xml.read_adams_results", "Adams .res (XML)", "Adams .res")},
         looks_like="adams.results_xml.is_adams_results",
+    ),
+    ForeignFormat(
+        "inp",
+        INP.name,
+        ending=".inp",
+        place=4,
+        reads={MESH: Reader("abaqus.deck.read_inp", "an Abaqus .inp", "Abaqus .inp")},
+        looks_like="abaqus.keywords.is_deck",
+    ),
+    ForeignFormat(
+        "export",
+        EXPORT.name,
+        ending="the text of the export script",
+        place=4,
+        reads={
+            FORCES: Reader("export.read.read_export", "the text of the export script", "text of the export script"),
+            MESH: Reader("export.read.read_export_model", "the text of the export script", "text of the export script"),
+        },
+        looks_like="export.layout.is_export",
     ),
 )
 """From the usual to the special: messages name them in this order, a file is recognised in the reverse one."""
