@@ -26,7 +26,7 @@ SECTIONS = {
     "Assess": ("check", "assess", "show", "report", "verify"),
     "Understand": ("diagnose", "point", "history", "spectra", "ride", "basis", "shift"),
     "Decide": ("compare", "whatif", "backsolve", "fleet", "bench"),
-    "Measure and study": ("gauges", "study"),
+    "Measure and study": ("channels", "gauges", "study"),
 }
 GOES_ON, AGAIN = "the same command goes on from here", "give the same command again"
 

@@ -5,6 +5,7 @@ published description or the source of an open reader, [M] from memory, so that 
 """
 
 import re
+from collections.abc import Collection
 from dataclasses import dataclass
 
 _OP2 = "Request GPFORCE(PLOT) with PARAM,POST,-1 and give the .op2"
@@ -14,7 +15,9 @@ UNPACK = "Unpack it and give the file inside"
 _ANSYS_FORCES = (
     "Write the nodal forces of the weld elements with ESEL, FORCE,STATIC and NFORCE as a CSV of element_forces"
 )
-_ABAQUS_FORCES = "Write NFORC of the weld elements with Abaqus Python as a CSV of element_forces"
+_ABAQUS_FORCES = (
+    "Export it with abaqus_export.py (fatigue example DIR --requests), and give the text to --forces and --mesh"
+)
 _PANDAS = "Turn it into Parquet: python -c \"import pandas as p; p.{0}('FILE').to_parquet('FILE.parquet')\""
 
 
@@ -22,7 +25,9 @@ _PANDAS = "Turn it into Parquet: python -c \"import pandas as p; p.{0}('FILE').t
 class Known:
     """A format by name, and the way out of it.
 
-    ``starts`` are bytes at the position ``at``; ``within`` is a pattern that the head must match as well.
+    ``starts`` are bytes at the position ``at``; ``within`` is a pattern that the head must match as well; ``zipped`` is
+    a pattern of the name of a file in a ZIP archive, by which alone such a format is told; ``has_zeros``: a format that
+    is told by a pattern alone may be binary.
     """
 
     name: str
@@ -30,9 +35,22 @@ class Known:
     starts: tuple[bytes, ...] = (b"",)
     at: int = 0
     within: bytes = b""
+    zipped: str = ""
+    has_zeros: bool = False
+
+    @property
+    def is_binary(self) -> bool:
+        """Whether its first bytes tell the format, not a pattern that text anywhere in the head may have."""
+        return self.zipped == "" and (self.starts != (b"",) or not self.within or self.has_zeros)
+
+    def fits_archive(self, names: Collection[str]) -> bool:
+        """Whether a ZIP archive of files of these names is of this format."""
+        return self.zipped != "" and any(re.match(self.zipped, name) for name in names)
 
     def fits(self, head: bytes) -> bool:
         """Whether a file begins like this format."""
+        if self.zipped:
+            return False
         begins = head[self.at :].startswith(self.starts)
         return begins and (not self.within or re.search(self.within, head) is not None)
 
@@ -55,21 +73,11 @@ BINARY = (
     Known("an ORC file", _PANDAS.format("read_orc"), (b"ORC",)),  # [V]
     Known("an Avro file", "Write it as Parquet", (b"Obj\x01",)),  # [D]
     Known("an SQLite database", "Write its table as CSV or Parquet", (b"SQLite format 3\0",)),  # [V]
-    Known("a NumPy array (.npy)", "Write its columns, with their names, as CSV or Parquet", (b"\x93NUMPY",)),  # [V]
     Known("a Python pickle", _PANDAS.format("read_pickle"), tuple(bytes((0x80, p)) for p in (2, 3, 4, 5))),  # [V]
-    Known("a MATLAB 7.3 file", f"{_CHANNELS}: writetable", (b"MATLAB 7.3 MAT-file",)),  # [D]
-    Known("a MATLAB file", f"{_CHANNELS}: writetable", (b"MATLAB 5.0 MAT-file",)),  # [V]
-    Known(
-        "a MATLAB 4 file",
-        f"{_CHANNELS}: writetable",
-        within=rb"(?s)^[\0-\x34]\0\0\0.{8}[\0\x01]\0\0\0[\x02-\x40]\0\0\0[A-Za-z]\w*\0",  # [V] little end
-    ),
     Known("a netCDF file", "Write its variables as CSV or Parquet", (b"CDF\x01", b"CDF\x02", b"CDF\x05")),  # [D]
     # measured and simulated channels
-    Known("an NI TDMS file", f"{_CHANNELS} (npTDMS, DIAdem)", (b"TDSm", b"TDSh")),  # [D]
-    Known("an ASAM MDF file (.mf4, .mdf, .dat)", f"{_CHANNELS} (asammdf)", (b"MDF     ", b"UnFinMF ")),  # [D]
-    Known("a universal file (.unv, .uff)", _CHANNELS, within=rb"^ {4}-1 *\r?\n {0,5}\d{1,5}b?[ \r\n]"),  # [D]
-    Known("an RPC III file (.rsp, .drv)", _CHANNELS, (b"FORMAT\0",), within=rb"^FORMAT\0+ *(?:BINARY|ASCII)"),  # [D]
+    Known("an index of an NI TDMS file (.tdms_index)", "Give the .tdms beside it", (b"TDSh",)),  # [D]
+    Known("an ASAM MDF file that was not finalised", "Finalise it (asammdf: MDF(FILE).save)", (b"UnFinMF ",)),  # [D]
     # results of other solvers
     Known(
         "an ANSYS result file (.rst)", _ANSYS_FORCES, (b"d\0\0\0\0\0\0\x80\x0c\0\0\0", b"\0\0\0d\x80\0\0\0\0\0\0\x0c")
@@ -110,7 +118,7 @@ SUFFIXES = {
     ".master": HINTS[5],
     ".dball": HINTS[5],
     ".dac": Known("an nCode DAC channel", _CHANNELS),
-    ".res": Known("Adams results (.res)", _CHANNELS),
+    ".res": Known("Adams results (.res)", "Write them as XML: RESULTS/XRF"),
     ".req": Known("Adams requests (.req)", _CHANNELS),
     ".t16": Known("Marc results", "Write the nodal forces of the weld elements as a CSV of element_forces"),
     ".stl": Known("an STL surface", "Give the NASTRAN deck (.bdf): a surface has no elements with thickness"),
@@ -126,8 +134,7 @@ TEXT = (
         "an Excel table as XML", AS_CSV, within=rb"(?s)^\s*<\?xml.*urn:schemas-microsoft-com:office:spreadsheet"
     ),  # [D]
     Known("a VTK picture", "Give the NASTRAN deck (.bdf)", within=rb"(?s)^(?:# vtk DataFile|\s*(?:<\?xml.*)?<VTKFile)"),
-    Known("Adams results (XML)", _CHANNELS, within=rb"(?s)^\s*<\?xml.*<Results"),  # [D]
-    Known("an XML file", "Give the table itself as CSV", within=rb"^\s*<\?xml"),  # [V]
+    Known("an XML file", "Give the table itself as CSV", within=rb"(?s)^\s*<\?xml(?!.*<Results[^>]*xrf)"),  # [V]
     Known(
         "a JSON file",
         "Give a table as CSV or Parquet",
@@ -153,11 +160,6 @@ TEXT = (
         "an ANSYS archive (.cdb)", "Write the mesh as a NASTRAN deck", within=rb"(?im)^(?:NBLOCK,|EBLOCK,|/PREP7|/COM,)"
     ),
     Known("an LS-DYNA deck", "Write the mesh as a NASTRAN deck", within=rb"(?im)^\*KEYWORD"),  # [D]
-    Known(
-        "an Abaqus deck (.inp)",
-        "Write the mesh as a NASTRAN deck",
-        within=rb"(?im)^\*(?:HEADING|NODE|ELEMENT|PART|ASSEMBLY|SHELL SECTION)\b",  # [D]
-    ),
     Known("Abaqus results as text (.fil)", _ABAQUS_FORCES, within=rb"^\*I +\d+I +\d?1921"),  # [D]
     Known("an STL surface", "Give the NASTRAN deck (.bdf)", within=rb"(?i)^\s*solid\b[^\n]*\n\s*facet normal"),  # [D]
     Known("a STEP file", "Give the NASTRAN deck (.bdf)", within=rb"^ISO-10303-21;"),  # [D]
@@ -197,14 +199,40 @@ _REGISTER = Known(
     "a weld register", "Give it to --register", within=rb"^(?=[^\n]*\bweld\b)(?=[^\n]*\bline\b)[^\n]*\bstatus\b"
 )
 
-OWN = (PARQUET, HDF5, OP2, MCF, PUNCH, DECK, _CASE, _REGISTER)
+_TABLE = "Give it to fatigue convert --coordinates, or write it as a table: fatigue channels FILE -o TABLE.parquet"
+TDMS = Known("an NI TDMS file", _TABLE, (b"TDSm",))  # [V]
+MDF = Known("an ASAM MDF file (.mf4, .mdf, .dat)", _TABLE, (b"MDF     ",))  # [V]
+UNIVERSAL = Known(
+    "a universal file (.unv, .uff)", _TABLE, within=rb"^ {4}-1 *\r?\n {0,5}\d{1,5}b?[ \r\n]", has_zeros=True
+)  # [V]
+RPC = Known("an RPC III file (.rsp, .drv)", _TABLE, (b"FORMAT\0",), within=rb"^FORMAT\0+ *(?:BINARY|ASCII)")  # [V]
+EXPORT = Known("a text of the export script", "Give it to --forces and --mesh", within=rb"\Afatigue export \d")  # [V]
+INP = Known(
+    "an Abaqus deck (.inp)",
+    "Give it to fatigue convert --mesh",
+    within=rb"(?i)\A(?:\s*\*\*[^\n]*\n|\s*\n)*\s*\*\s*(?:heading|node|element|part|assembly|include|preprint|shell|solid|nset|elset)",
+)  # [V] by CalculiX
+ADAMS = Known("Adams results (.res, XML)", _TABLE, within=rb"(?s)^\s*<\?xml.*<Results[^>]*xrf")  # [V]
+NPY = Known("a NumPy array (.npy)", _TABLE, (b"\x93NUMPY",))  # [V]
+NPZ = Known("a NumPy archive (.npz)", _TABLE, zipped=r".*\.npy$")  # [V]
+MATLAB = Known(
+    "a MATLAB file",
+    _TABLE,
+    within=rb"(?s)^(?:MATLAB 5\.0 MAT-file|[\0-\x34]\0\0\0.{8}[\0\x01]\0\0\0[\x02-\x40]\0\0\0[A-Za-z]\w*\0)",
+    has_zeros=True,
+)  # [V] of version 5 to 7; of version 4, little end
+MATLAB_73 = Known("a MATLAB 7.3 file", _TABLE, (b"MATLAB 7.3 MAT-file",))  # [V]
+WORKBOOK = Known("an Excel workbook (.xlsx)", f"{AS_CSV}, or: fatigue channels FILE -o TABLE.csv", zipped=r"xl/")  # [V]
+
+OWN = (
+    *(PARQUET, HDF5, OP2, MCF, PUNCH, DECK, _CASE, _REGISTER),
+    *(TDMS, MDF, UNIVERSAL, RPC, NPY, NPZ, MATLAB, MATLAB_73, WORKBOOK, ADAMS, EXPORT, INP),
+)
 """Formats that are read, and where; ``readers.foreign.formats`` names its entries by these."""
 
 ZIPPED = (
-    (r"xl/", Known("an Excel workbook (.xlsx)", AS_CSV)),  # [V]
     (r"content\.xml$", Known("an OpenDocument file (.ods)", AS_CSV)),  # [D]
     (r"(word|ppt)/", Known("an Office document", "Give the table itself as CSV")),  # [D]
-    (r".*\.npy$", Known("a NumPy archive (.npz)", "Write its columns, with their names, as CSV or Parquet")),  # [V]
     (r"modelDescription\.xml$", Known("a simulation unit (.fmu)", _CHANNELS)),  # [D]
 )
 """What a ZIP archive is, by the name of a file in it."""

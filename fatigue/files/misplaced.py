@@ -8,6 +8,7 @@ from typing import BinaryIO
 from fatigue.errors import Problem
 from fatigue.files.known_formats import AS_CSV, BINARY, HINTS, OWN, SUFFIXES, TEXT, UNPACK, ZIPPED, Known
 
+_ARCHIVES = (b"PK\x03\x04", b"PK\x05\x06")
 HEAD = 200_000  # bytes of a file that are looked at
 
 
@@ -21,8 +22,9 @@ def known_format(path: Path, *, text: bool = True) -> Known | None:
     try:
         with path.open("rb") as file:
             head = file.read(HEAD)
-            if head.startswith((b"PK\x03\x04", b"PK\x05\x06")):
-                return _zip(file)
+            if head.startswith(_ARCHIVES):
+                names = archive_names(file)
+                return None if _own_archive(names) else _zip(names)
             if head.startswith(b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"):
                 return _office(head)
     except OSError:
@@ -47,12 +49,14 @@ def own_format(path: Path, *, text: bool = True) -> Known | None:
     try:
         with path.open("rb") as file:
             head = file.read(HEAD)
+            if head.startswith(_ARCHIVES):
+                return _own_archive(archive_names(file))
     except OSError:
         return None
     if b"\0" in head:
-        return next((known for known in OWN if not known.within and known.fits(head)), None)
+        return next((known for known in OWN if known.is_binary and known.fits(head)), None)
     plain = head.removeprefix(b"\xef\xbb\xbf").replace(b"\r\n", b"\n")
-    return next((known for known in OWN if (text or not known.within) and known.fits(plain)), None)
+    return next((known for known in OWN if (text or known.is_binary) and known.fits(plain)), None)
 
 
 def unknown_binary(path: Path, where: str, remedy: str, *, stray: float = 0.0) -> Problem | None:
@@ -87,12 +91,23 @@ def _two_byte_text(head: bytes) -> bool:
     return head.startswith((b"\xff\xfe", b"\xfe\xff", b"\0\0\xfe\xff")) or (min(zeros) == 0 and max(zeros) > 0.9 * half)
 
 
-def _zip(file: BinaryIO) -> Known:
-    """What a ZIP archive is: many programs store their documents in one."""
+def archive_names(file: BinaryIO) -> list[str] | None:
+    """Names of the files in a ZIP archive; None where it is damaged."""
     try:
         with zipfile.ZipFile(file) as archive:
-            names = archive.namelist()
+            return archive.namelist()
     except (zipfile.BadZipFile, OSError, ValueError, NotImplementedError, RuntimeError):
+        return None
+
+
+def _own_archive(names: list[str] | None) -> Known | None:
+    """Format of a ZIP archive that is read."""
+    return next((known for known in OWN if known.fits_archive(names or ())), None)
+
+
+def _zip(names: list[str] | None) -> Known:
+    """What a ZIP archive is: many programs store their documents in one."""
+    if names is None:
         return Known("a ZIP archive, or an Excel workbook, cut short", "Copy it again")
     known = next((known for pattern, known in ZIPPED if any(re.match(pattern, name) for name in names)), None)
     return known or Known("a ZIP archive", UNPACK)

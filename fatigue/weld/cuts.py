@@ -264,12 +264,12 @@ def _named(cuts: Iterable[WeldCut]) -> list[WeldCut]:
     named = []
     for stem, group in groups.items():
         for number, cut in enumerate(sorted(group, key=lambda c: tuple(c.elements.tolist()))):
-            name = stem + _letters(number)
+            name = stem + letters(number)
             named.append(replace(cut, name=name, line=replace(cut.line, weld=name)))
     return sorted(named, key=lambda c: c.name)
 
 
-def _letters(number: int) -> str:
+def letters(number: int) -> str:
     """Letters a, b, ..., z, aa, ab, ... for the numbers 0, 1, ..."""
     text = ""
     while True:

@@ -32,6 +32,7 @@ from fatigue.results import read_provenance, read_table
 from fatigue.results.json_records import write_json
 from fatigue.results.tables import schema
 from tests.fuzz import damage
+from tests.fuzz.recordings import recordings
 from tests.readers import neutral_tables as neutral
 from tests.readers.foreign.histories.test_mcf import MCF
 from tests.readers.op2_writer import modal_op2
@@ -378,6 +379,8 @@ def sources(folder: Path) -> list[Source]:
     pq.write_table(pa.table(filled, schema=plain), folder / "sound_nodes.parquet")
     nodes = (folder / "sound_nodes.parquet").read_bytes()
     add("result table", "nodes.parquet", nodes, _result_table, binary=True, structure=True)
+    for name, path, is_text in recordings(folder):
+        add(name, path.name, path.read_bytes(), _coordinates, binary=not is_text)
     return found
 
 

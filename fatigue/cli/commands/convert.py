@@ -58,7 +58,7 @@ def _refuse_mistakes(options: ConvertOptions) -> None:
     foreign = (options.forces, options.mesh, *options.unit_loads, *options.stresses, *options.coordinates)
     refuse_all(missing_foreign(*foreign))
     displacements = (asked.file for asked in options.displacements)
-    tables = (welds.register, welds.node_lists, options.columns, options.simulation_modes, *displacements)
+    tables = (welds.register, welds.node_lists, welds.lines, options.columns, options.simulation_modes, *displacements)
     refuse_all(missing_tables(*tables, options.stress_points))
     if options.stresses and options.stress_points is None:
         what = "shell stresses are given, and no points where they are wanted"

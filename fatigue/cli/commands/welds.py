@@ -19,6 +19,11 @@ from fatigue.stages import stage
 @click.argument("mesh", metavar="MODEL", type=FILE)
 @click.option("--units", default="mm-t-s", show_default=True, help="Unit system of the model: mm-t-s, m-kg-s ...")
 @click.option("-o", "--output", type=FILE, help="Register (CSV) to write, to be edited and given back with --register.")
+@click.option(
+    "--write-lines",
+    type=FILE,
+    help="Table of the lines as points in space (CSV) to write; --lines finds them on another mesh.",
+)
 @click.option("--vtp", type=FILE, help="Picture of the lines for ParaView.")
 @click.option("--only", default="", help="List only lines whose name contains this text.")
 @click.option("--force", is_flag=True, help="Overwrite existing files.")
@@ -28,6 +33,7 @@ def welds(
     mesh: Path,
     units: str,
     output: Path | None,
+    write_lines: Path | None,
     vtp: Path | None,
     only: str,
     force: bool,
@@ -41,11 +47,12 @@ def welds(
       fatigue welds model.bdf -o welds_register.csv --vtp lines.vtp
     """
     refuse_all(missing_foreign(mesh))
-    refuse_all(missing_tables(sources.register, sources.node_lists))
+    refuse_all(missing_tables(sources.register, sources.node_lists, sources.lines))
     refuse_unknown_units(units=units)
     if output != sources.register:
         remedy = "Give it as the register too, or use --force"
         refuse_existing(output, force=force, what="the file exists", remedy=remedy)
+    refuse_existing(write_lines, force=force, what="is there already", remedy="Use --force to overwrite it")
     refuse_existing(vtp, force=force, what="is there already", remedy="Use --force to overwrite it")
     from dataclasses import asdict
 
@@ -55,7 +62,7 @@ def welds(
 
     with narrated(quiet=is_quiet()):
         stage("finding weld lines")
-        found = list_welds(mesh, sources, units, output, force)
+        found = list_welds(mesh, sources, units, output, force, write_lines)
     rows = [row for row in found.rows if only in row.weld]
     if not rows:
         what = f"none of the {len(found.rows)} weld lines has '{only}' in its name"

@@ -35,6 +35,10 @@ class WeldSources:
         Option("--detect/--no-detect", "Search the mesh for weld lines; default: if nothing is marked."),
     ] = None
     candidates: Annotated[bool, Option("--candidates", "Assess flat changes of property and folds as well.")] = False
+    lines: Annotated[
+        Path | None,
+        Option("--lines", "CSV line,point,x_mm,y_mm,z_mm with weld lines as points in space, for any mesh."),
+    ] = None
 
     def __post_init__(self) -> None:
         """Take text for a path."""

@@ -9,6 +9,7 @@ import numpy as np
 
 from fatigue.errors import DataError, Problem, given_path
 from fatigue.files.whole import replacing
+from fatigue.readers.convert.coordinate_lines import cuts_along, lines_text, read_given_lines
 from fatigue.readers.convert.joined_cuts import joined_cuts
 from fatigue.readers.convert.options import WeldSources
 from fatigue.readers.foreign.fe.model import FeModel, in_mm
@@ -58,7 +59,12 @@ def find_welds(model: FeModel, sources: WeldSources) -> FoundWelds:
     topo = topology(model.mesh)
     lists, list_warnings = _node_lists(sources.node_lists)
     marked = dict(_marked_edges(model, topo, sources, lists))
-    cuts = trace(topo, marked)
+    given, of_table = read_given_lines(sources.lines) if sources.lines else ([], [])
+    taken = {edge: key[0] for edge, key in marked.items()}
+    along, on_lines, doubts = cuts_along(topo, given, sources.lines or Path(), taken)
+    list_warnings += [*of_table, *doubts]
+    cuts = [*along, *trace(topo, marked)]
+    marked |= {edge: (name, ()) for edge, name in on_lines.items()}
     detect = not marked if sources.detect is None else sources.detect
     if detect:
         found = {edge: key for edge, key in classify(topo).items() if edge not in marked}
@@ -91,7 +97,12 @@ def find_welds(model: FeModel, sources: WeldSources) -> FoundWelds:
 
 
 def list_welds(
-    mesh: Path | str, sources: WeldSources, units: str, out: Path | str | None, overwrite: bool
+    mesh: Path | str,
+    sources: WeldSources,
+    units: str,
+    out: Path | str | None,
+    overwrite: bool,
+    lines: Path | str | None = None,
 ) -> FoundWelds:
     """Weld lines of a model file; their register is written, to be edited and given back.
 
@@ -99,6 +110,7 @@ def list_welds(
     ----------
     units : unit system of the model
     out : register to write; None: write nothing
+    lines : table of the lines to write, as points in space for another mesh; None: write nothing
 
     Raises
     ------
@@ -117,6 +129,13 @@ def list_welds(
             )
         with replacing(out) as unfinished:  # it may be the edited register that was read
             unfinished.write_text(register_text(found.rows), "utf-8")
+    if lines is not None:
+        lines = given_path(lines, "lines")
+        if lines.exists() and not overwrite:
+            raise DataError(Problem("foreign_file", str(lines), "the file exists", "Use --force to overwrite it"))
+        cuts = [cut for row in found.rows if row.status == "assess" and (cut := found.cuts.get(row.line))]
+        with replacing(lines) as unfinished:
+            unfinished.write_text(lines_text(cuts), "utf-8")
     return replace(found, warnings=(*model.warnings, *found.warnings))
 
 

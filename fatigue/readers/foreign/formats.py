@@ -7,12 +7,31 @@ a binary one; a text, as an Abaqus deck, has ``looks_like="abaqus.deck.is_deck"`
 ``CHANNELS`` gives modal coordinates, too: ``channels.coordinates`` finds them among the groups that it reads.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from importlib import import_module
 from typing import Any
 
-from fatigue.files.known_formats import DECK, HDF5, OP2, PARQUET, PUNCH, Known
+from fatigue.files.known_formats import (
+    ADAMS,
+    DECK,
+    EXPORT,
+    HDF5,
+    INP,
+    MATLAB,
+    MATLAB_73,
+    MDF,
+    NPY,
+    NPZ,
+    OP2,
+    PARQUET,
+    PUNCH,
+    RPC,
+    TDMS,
+    UNIVERSAL,
+    WORKBOOK,
+    Known,
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,7 +113,7 @@ class ForeignFormat:
     @property
     def home(self) -> str:
         """Where a file of the format belongs."""
-        return " or ".join(content.option for content in self.holds) + self.belongs
+        return " or ".join(content.option for content in self.holds if content != CHANNELS) + self.belongs
 
     @property
     def holds(self) -> dict[Content, Reader]:
@@ -105,6 +124,10 @@ class ForeignFormat:
     def fits_bytes(self, head: bytes) -> bool:
         """Whether a binary file begins like this format."""
         return self.signature is not None and self.signature.fits(head)
+
+    def fits_archive(self, names: Collection[str]) -> bool:
+        """Whether a ZIP archive of files of these names is of this format."""
+        return self.signature is not None and self.signature.fits_archive(names)
 
     def fits_text(self, head: str) -> bool:
         """Whether a text begins like this format."""
@@ -117,7 +140,10 @@ FORMATS = (
         "a text table",
         ending="a text table",
         place=7,
-        reads={COORDINATES: Reader("histories.text.read_text_history", "a text table", "CSV, text")},
+        reads={
+            COORDINATES: Reader("histories.text.read_text_history", "a text table", "CSV, text"),
+            CHANNELS: Reader("channels.table.read_text_channels", "a text table", "CSV, text"),
+        },
         belongs=" if it holds them",
     ),
     ForeignFormat(
@@ -157,7 +183,10 @@ FORMATS = (
         PUNCH.name,
         ending=".pch",
         place=3,
-        reads={FORCES: Reader("nastran.results.punch.read_punch", "a punch file", "punch")},
+        reads={
+            FORCES: Reader("nastran.results.punch.read_punch", "a punch file", "punch"),
+            CHANNELS: Reader("nastran.results.solution_punch.read_solution_punch", "punch (SDISPLACEMENT)", "punch"),
+        },
         looks_like="nastran.results.punch.is_punch",
     ),
     ForeignFormat(
@@ -165,7 +194,10 @@ FORMATS = (
         PARQUET.name,
         ending=".parquet",
         place=6,
-        reads={COORDINATES: Reader("histories.text.read_parquet_history", ".parquet")},
+        reads={
+            COORDINATES: Reader("histories.text.read_parquet_history", ".parquet"),
+            CHANNELS: Reader("channels.table.read_parquet_channels", ".parquet"),
+        },
         signature=PARQUET,
         belongs=", or, if it is a table of a case, to case.toml",
     ),
@@ -174,8 +206,115 @@ FORMATS = (
         "an ANSYS file of modal coordinates",
         ending=".mcf",
         place=5,
-        reads={COORDINATES: Reader("histories.mcf.read_mcf", ".mcf", ".mcf")},
+        reads={
+            COORDINATES: Reader("histories.mcf.read_mcf", ".mcf", ".mcf"),
+            CHANNELS: Reader("channels.table.read_mcf_channels", ".mcf", ".mcf"),
+        },
         looks_like="histories.mcf.is_mcf",
+    ),
+    ForeignFormat(
+        "rpc",
+        RPC.name,
+        ending=".rsp",
+        place=9,
+        reads={CHANNELS: Reader("channels.rpc.read_rpc", "an RPC III .rsp", ".rsp")},
+        signature=RPC,
+    ),
+    ForeignFormat(
+        "universal",
+        UNIVERSAL.name,
+        ending=".uff",
+        place=9,
+        reads={CHANNELS: Reader("channels.universal.read_universal", ".uff", ".uff")},
+        signature=UNIVERSAL,
+        extra=Extra("pyuff", "universal file input"),
+    ),
+    ForeignFormat(
+        "mdf",
+        MDF.name,
+        ending=".mf4",
+        place=9,
+        reads={CHANNELS: Reader("channels.mdf.read_mdf", ".mf4", ".mf4")},
+        signature=MDF,
+        extra=Extra("asammdf", "ASAM MDF input"),
+    ),
+    ForeignFormat(
+        "tdms",
+        TDMS.name,
+        ending=".tdms",
+        place=9,
+        reads={CHANNELS: Reader("channels.tdms.read_tdms", ".tdms", ".tdms")},
+        signature=TDMS,
+        extra=Extra("nptdms", "NI TDMS input"),
+    ),
+    ForeignFormat(
+        "npy",
+        NPY.name,
+        ending=".npy",
+        place=8,
+        reads={CHANNELS: Reader("channels.arrays.read_npy", ".npy")},
+        signature=NPY,
+    ),
+    ForeignFormat(
+        "npz",
+        NPZ.name,
+        ending=".npz",
+        place=8,
+        reads={CHANNELS: Reader("channels.arrays.read_npz", ".npz", ".npz")},
+        signature=NPZ,
+    ),
+    ForeignFormat(
+        "mat",
+        MATLAB.name,
+        ending=".mat",
+        place=8,
+        reads={CHANNELS: Reader("channels.matlab.read_matlab", ".mat", ".mat")},
+        signature=MATLAB,
+    ),
+    ForeignFormat(
+        "mat73",
+        MATLAB_73.name,
+        ending="MATLAB 7.3",
+        place=8,
+        reads={CHANNELS: Reader("channels.matlab_73.read_matlab_73", "MATLAB 7.3")},
+        signature=MATLAB_73,
+        extra=Extra("h5py", "MATLAB 7.3 input"),
+    ),
+    ForeignFormat(
+        "xlsx",
+        WORKBOOK.name,
+        ending=".xlsx",
+        place=8,
+        reads={CHANNELS: Reader("channels.workbook.read_workbook", ".xlsx", ".xlsx")},
+        signature=WORKBOOK,
+        extra=Extra("python_calamine", "Excel input"),
+    ),
+    ForeignFormat(
+        "res",
+        ADAMS.name,
+        ending=".res",
+        place=8,
+        reads={CHANNELS: Reader("adams.results_xml.read_adams_results", "Adams .res (XML)", "Adams .res")},
+        looks_like="adams.results_xml.is_adams_results",
+    ),
+    ForeignFormat(
+        "inp",
+        INP.name,
+        ending=".inp",
+        place=4,
+        reads={MESH: Reader("abaqus.deck.read_inp", "an Abaqus .inp", "Abaqus .inp")},
+        looks_like="abaqus.keywords.is_deck",
+    ),
+    ForeignFormat(
+        "export",
+        EXPORT.name,
+        ending="the text of the export script",
+        place=4,
+        reads={
+            FORCES: Reader("export.read.read_export", "the text of the export script", "text of the export script"),
+            MESH: Reader("export.read.read_export_model", "the text of the export script", "text of the export script"),
+        },
+        looks_like="export.layout.is_export",
     ),
 )
 """From the usual to the special: messages name them in this order, a file is recognised in the reverse one."""

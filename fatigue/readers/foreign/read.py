@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.files.extras import install_command
-from fatigue.files.misplaced import HEAD, known_format, own_format, unknown_binary
+from fatigue.files.misplaced import HEAD, archive_names, known_format, own_format, unknown_binary
 from fatigue.files.naming import missing_foreign_file
 from fatigue.readers.foreign.channels.coordinates import coordinates_of
 from fatigue.readers.foreign.channels.group import ChannelGroup
@@ -44,6 +44,7 @@ def recognise(path: Path) -> ForeignFormat:
     try:
         with path.open("rb") as file:
             head = file.read(HEAD)
+            members = archive_names(file) if head.startswith(b"PK") else None
     except (FileNotFoundError, NotADirectoryError, IsADirectoryError):
         raise DataError(missing_foreign_file(path)) from None
     except OSError as error:
@@ -53,7 +54,7 @@ def recognise(path: Path) -> ForeignFormat:
     if not head:
         raise DataError(Problem("empty", str(path), "the file is empty", "Give the file that the solver wrote"))
     for form in reversed(FORMATS):
-        if form.fits_bytes(head):
+        if form.fits_bytes(head) or form.fits_archive(members or ()):
             return form
     if (known := known_format(path)) is not None:
         raise DataError(Problem("foreign_format", str(path), f"this is {known.name}", known.remedy))

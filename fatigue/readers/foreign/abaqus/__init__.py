@@ -1,1 +1,1 @@
-"""Abaqus: the text that the script writes, and decks (.inp)."""
+"""Abaqus decks (.inp); forces and shapes come by the script and its text, see ``export``."""

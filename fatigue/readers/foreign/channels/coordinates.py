@@ -1,5 +1,6 @@
 """Modal coordinates among the channels of a file: which groups hold them, and on which one time base."""
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -15,15 +16,17 @@ from fatigue.readers.foreign.histories.table_history import history_of_table, wi
 from fatigue.readers.units.channel_names import channel, without_unit_one
 
 _TIME = RecordedChannel("time", "s")
+_CALLED_Q = re.compile(r"(?:\A|.*[^a-z])(?:q|eta|modal[ _]?coord\w*)[ _.(\[]*\d+[)\] ]*\Z", re.IGNORECASE | re.DOTALL)
 _LOAD = "u_"
 
 
 def coordinates_of(
     path: Path, groups: Sequence[ChannelGroup], columns: Mapping[str, int] | None, time_column: str | None
 ) -> ForeignHistory:
-    """Modal coordinates of a file of channels: those whose names end in a number, or those that ``columns`` names.
+    """Modal coordinates of a file of channels: those whose names have a number, or those that ``columns`` names.
 
-    Groups with the same instants are one. Channels without number are left out beside others that have one.
+    Groups with the same instants are one. Where some are called ``q`` and a number, only these are coordinates;
+    channels without number are left out beside others that have one.
 
     Parameters
     ----------
@@ -37,7 +40,8 @@ def coordinates_of(
     groups = [group for group in groups if group.channels]
     if not groups:
         raise DataError(Problem("no_coordinates", str(path), "the file has no channels", "Export them again"))
-    taken = [(group, _taken(group, columns, time_column)) for group in groups]
+    says_q = any(_CALLED_Q.match(channel(one.name).base) for group in groups for one in group.channels)
+    taken = [(group, _taken(group, columns, time_column, says_q=says_q)) for group in groups]
     used = [(group, at) for group, at in taken if at]
     if columns is None and not any(_mode(group, k) for group, at in used for k in at):
         used = [(group, list(range(len(group.channels)))) for group in groups]  # to be joined in order
@@ -53,7 +57,8 @@ def coordinates_of(
     if first.time is None and time_column is None and not _names_time(used):
         what = f"{first.called}: {first.without_time or 'the file gives its channels no time'}"
         raise DataError(Problem("no_time", str(path), what, "Export the channels with their time"))
-    return _history(path, used, columns, time_column, _left_out(path, groups, used))
+    warnings = dict.fromkeys(warning for group, _ in used for warning in group.warnings)
+    return _history(path, used, columns, time_column, (*warnings, *_left_out(path, groups, used)))
 
 
 def _history(
@@ -79,13 +84,17 @@ def _history(
     return replace(history, warnings=(*history.warnings, *warnings))
 
 
-def _taken(group: ChannelGroup, columns: Mapping[str, int] | None, time_column: str | None) -> list[int]:
-    """Positions of the channels that are coordinates, unit loads or time."""
+def _taken(
+    group: ChannelGroup, columns: Mapping[str, int] | None, time_column: str | None, *, says_q: bool
+) -> list[int]:
+    """Positions of the channels that are coordinates, unit loads or time; where some are called q, only these."""
     names = [one.name for one in group.channels]
     if columns is not None:
         wanted = {composed(name) for name in (*columns, *filter(None, [time_column]))}
         return [k for k, name in enumerate(names) if {composed(name), composed(channel(name).base)} & wanted]
-    numbered = [k for k in range(len(names)) if _mode(group, k)]
+    numbered = [
+        k for k, name in enumerate(names) if _mode(group, k) and (not says_q or _CALLED_Q.match(channel(name).base))
+    ]
     beside = [
         k
         for k, name in enumerate(names)
@@ -121,7 +130,7 @@ def _left_out(
     if not rest:
         return ()
     others = {group.name for group, _ in rest} - {group.name for group, _ in used}
-    where = f", {len(others)} groups of other time bases or without modes among them" if others else ""
+    where = f", all of group {', '.join(sorted(map(repr, others)))} among them" if others else ""
     what = f"{len(rest)} channels that name no mode are left out: {', '.join(repr(name) for _, name in rest[:5])}"
     return (Problem("channels_left_out", str(path), what + where, "Name them by --columns if they are coordinates"),)
 

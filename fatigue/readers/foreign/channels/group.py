@@ -6,6 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from fatigue.errors import Problem
+
 
 @dataclass(frozen=True, slots=True)
 class RecordedChannel:
@@ -28,6 +30,7 @@ class ChannelGroup:
     values : of the channels at these positions, (k, t), in their own units, conversions of the file applied; NaN where
         the file marks a sample as missing
     without_time : why there is no time, and what would give it; empty where there is one
+    warnings : about the group, met while its names were read
     """
 
     name: str
@@ -36,6 +39,7 @@ class ChannelGroup:
     time: NDArray[np.float64] | None
     values: Callable[[Sequence[int]], NDArray[np.floating]]
     without_time: str = ""
+    warnings: tuple[Problem, ...] = ()
 
     @property
     def called(self) -> str:

@@ -1,0 +1,128 @@
+"""The deck language of Abaqus, which CalculiX reads, too: keywords with parameters, and their data lines."""
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from fatigue.errors import DataError, Problem
+from fatigue.files.naming import missing_foreign_file
+
+_FIRST = re.compile(
+    r"^\s*\*\s*(heading|node|element|part|assembly|include|preprint|solid section|shell section|nset|elset|material)\b",
+    re.I,
+)
+_DEEPEST = 50
+
+Data = tuple[str, int, list[str]]
+"""File, line from 1, and the fields of a data line."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Keyword:
+    """A keyword, its parameters by their names in capitals, and its data lines.
+
+    Attributes
+    ----------
+    name : in capitals, blanks between words single
+    parameters : values as written, empty for a flag
+    where : file and line
+    data : data lines
+    """
+
+    name: str
+    parameters: dict[str, str]
+    where: str
+    data: list[Data] = field(default_factory=list)
+
+    def get(self, parameter: str, default: str = "") -> str:
+        """Value of a parameter."""
+        return self.parameters.get(parameter, default)
+
+
+def is_deck(head: str) -> bool:
+    """Whether a text begins like a deck: its first line that is no comment is a keyword."""
+    for line in head.splitlines()[:2000]:
+        text = line.strip()
+        if text and not text.startswith("**"):
+            return _FIRST.match(text) is not None and not text.upper().startswith("*KEYWORD")
+    return False
+
+
+def keywords(path: Path) -> tuple[list[Keyword], tuple[Path, ...]]:
+    """Keywords of a deck and of the files it includes, and these files.
+
+    Raises
+    ------
+    DataError : a missing include, data before any keyword, a parameter that is not understood
+    """
+    found: list[Keyword] = []
+    included: list[Path] = []
+    for where, number, line in _lines(path, path, included, 0):
+        if line.startswith("*"):
+            found.append(_keyword(f"{where}, line {number}", line))
+        elif found:
+            fields = [word.strip() for word in line.split(",")]
+            found[-1].data.append((where, number, fields))
+        else:
+            what = f"data stand before any keyword: {line[:40]!r}"
+            raise DataError(Problem("inp_damaged", f"{where}, line {number}", what, "Give the whole deck"))
+    return found, tuple(included)
+
+
+def _lines(path: Path, root: Path, included: list[Path], depth: int) -> Iterator[tuple[str, int, str]]:
+    """Lines without comments and blanks; keyword lines that end in a comma are joined with the next."""
+    try:
+        text = path.read_text("utf-8", errors="replace")
+    except (FileNotFoundError, IsADirectoryError):
+        raise DataError(missing_foreign_file(path)) from None
+    except OSError as error:
+        raise DataError(Problem("unreadable", str(path), f"it cannot be read ({error})", "Check the path")) from error
+    pending, first = "", 0
+    for number, raw in enumerate(text.splitlines(), 1):
+        line = raw.strip()
+        if not line or line.startswith("**"):
+            continue
+        if pending:
+            line = pending + line
+        elif line.startswith("*"):
+            first = number
+        if line.startswith("*") and line.endswith(","):
+            pending = line
+            continue
+        at, pending = (first if line.startswith("*") else number), ""
+        if re.match(r"\*\s*include\b", line, re.IGNORECASE):
+            yield from _included(f"{path}, line {at}", line, root, included, depth)
+        else:
+            yield str(path), at, line
+
+
+def _included(where: str, line: str, root: Path, included: list[Path], depth: int) -> Iterator[tuple[str, int, str]]:
+    """Lines of an included file, beside the root deck unless its path is absolute."""
+    name = _keyword(where, line).get("INPUT")
+    if not name:
+        raise DataError(Problem("inp_damaged", where, "*INCLUDE names no INPUT", "Name the file"))
+    file = root.parent / name.replace("\\", "/")
+    if depth >= _DEEPEST:
+        raise DataError(Problem("include_loop", where, f"{name} includes itself", "Break the circle"))
+    if not file.is_file():
+        what = f"the included file {name} is not beside {root.name}"
+        raise DataError(Problem("no_include", where, what, "Copy it there, or give the deck in one file"))
+    included.append(file)
+    yield from _lines(file, root, included, depth + 1)
+
+
+def _keyword(where: str, line: str) -> Keyword:
+    """A keyword line in its parts; names may be written with any blanks and letters."""
+    words = [word.strip() for word in _split(line[1:])]
+    parameters: dict[str, str] = {}
+    for word in words[1:]:
+        if word:
+            name, is_given, value = word.partition("=")
+            parameters[" ".join(name.upper().split())] = value.strip().strip("\"'") if is_given else ""
+    return Keyword(" ".join(words[0].upper().split()), parameters, where)
+
+
+def _split(line: str) -> list[str]:
+    """Words between commas; a comma in quotation marks separates nothing."""
+    return re.findall(r'(?:[^,"]|"[^"]*")+', line) or [""]

@@ -1,1 +1,0 @@
-"""ANSYS: the text that the macro writes, and archives (.cdb)."""

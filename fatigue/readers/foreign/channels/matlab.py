@@ -1,0 +1,72 @@
+"""Variables of a MATLAB file of version 4 to 7, read with scipy."""
+
+import warnings
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import scipy.io
+import scipy.sparse
+from scipy.io.matlab import MatlabFunction, MatlabOpaque, mat_struct
+
+from fatigue.errors import DataError, Problem
+from fatigue.readers.foreign.channels.group import ChannelGroup
+from fatigue.readers.foreign.channels.variables import Unreadable, groups_of_variables
+
+
+def read_matlab(path: Path) -> tuple[ChannelGroup, ...]:
+    """Channels among the variables of the file; see ``variables``.
+
+    Raises
+    ------
+    DataError : a damaged file; as ``groups_of_variables``
+    """
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            read = scipy.io.loadmat(path, struct_as_record=False, squeeze_me=False, chars_as_strings=True)
+    except MemoryError:
+        raise
+    except Exception as error:
+        said = " ".join(str(error).split())[:120] or type(error).__name__
+        what = f"the MATLAB file is damaged or cut ({said})"
+        raise DataError(Problem("mat_damaged", str(path), what, "Copy the file again, or save it anew")) from None
+    named = {key: value for key, value in read.items() if not (key.startswith("__") and key.endswith("__"))}
+    opaque = {"an object": Unreadable("timeseries, table or another")} if "__function_workspace__" in read else {}
+    return groups_of_variables(path, {key: _plain(value) for key, value in named.items()} | opaque)
+
+
+def _plain(value: Any) -> Any:
+    """A variable as ``variables`` takes it."""
+    if isinstance(value, mat_struct):
+        return {str(name): _plain(getattr(value, name)) for name in value._fieldnames}
+    if scipy.sparse.issparse(value):
+        return np.asarray(value.toarray())
+    return _of_array(value) if isinstance(value, np.ndarray) else value
+
+
+def _of_array(value: np.ndarray[Any, Any]) -> Any:
+    """An array of numbers, texts or cells, or an object in the shape of one."""
+    if isinstance(value, MatlabOpaque | MatlabFunction):
+        kind = value["s2"] if value.dtype.names and "s2" in value.dtype.names else "object"
+        return Unreadable(_class_name(kind))
+    if value.dtype.kind == "U":
+        return str(value.ravel()[0]) if value.size == 1 else tuple(str(text).strip() for text in value.ravel())
+    if value.dtype == object:
+        return _of_cells([_plain(one) for one in value.ravel()])
+    return value
+
+
+def _of_cells(cells: list[Any]) -> Any:
+    """Cells and arrays of structures: one structure, several, or a list of texts."""
+    if cells and all(isinstance(one, dict) for one in cells):
+        return cells[0] if len(cells) == 1 else cells
+    if cells and all(isinstance(one, str) or (isinstance(one, np.ndarray) and one.size == 0) for one in cells):
+        return tuple(one.strip() if isinstance(one, str) else "" for one in cells)
+    return {f"({number})": one for number, one in enumerate(cells, 1)}
+
+
+def _class_name(kind: Any) -> str:
+    raw = np.asarray(kind).ravel()
+    found = raw[0] if raw.size else "object"
+    return found.decode("ascii", "replace") if isinstance(found, bytes) else str(found)

@@ -1,0 +1,1 @@
+"""Weld lines given by points in space: the mesh edges along them, and names that survive another mesh."""
