@@ -26,7 +26,7 @@ _TETRA_MIDS = (8, 9, 11, 16, 17, 18)
 def element_of(routine: int, element: int, pid: int, nodes: Sequence[int]) -> Shell | Solid | None:
     """Shell or solid of the nodes as ANSYS lists them, 0 for a mid-side node left out.
 
-    None for an element that is neither, or one that its repeated nodes make neither: a pyramid, a shell drawn to a line.
+    None for an element that is neither, or that its repeated nodes make neither: a pyramid, a shell drawn to a line.
     """
     if routine in SHELLS:
         return _shell(element, pid, nodes, SHELLS[routine])

@@ -111,7 +111,9 @@ def _ids(path: Path, block: Block, column: int) -> NDArray[np.int64]:
 
 def _whole(path: Path, block: Block) -> NDArray[np.int64]:
     """Rows of whole numbers from 0."""
-    bad = np.flatnonzero(~((block.values >= 0) & (block.values < 2**53) & (block.values == np.rint(block.values))).all(1))
+    bad = np.flatnonzero(
+        ~((block.values >= 0) & (block.values < 2**53) & (block.values == np.rint(block.values))).all(1)
+    )
     if bad.size:
         raise _damaged(path, block.line + int(bad[0]) + 1, "a row of ids holds a value that is none")
     return block.values.astype(np.int64)
