@@ -13,6 +13,16 @@ _FIRST = re.compile(
     re.I,
 )
 _DEEPEST = 50
+_READ = (
+    *("NODE", "ELEMENT", "NSET", "ELSET", "PART", "END PART", "INSTANCE", "END INSTANCE", "ASSEMBLY", "END ASSEMBLY"),
+    *("SHELL SECTION", "SHELL GENERAL SECTION", "SYSTEM", "INCLUDE", "PARAMETER", "STEP"),
+    *("NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY"),
+)
+_PARAMETERS = (
+    *("TYPE", "ELSET", "NSET", "GENERATE", "INSTANCE", "NAME", "PART", "SYSTEM", "INPUT", "MATERIAL", "COMPOSITE"),
+    *("OFFSET", "NODAL THICKNESS", "SHELL THICKNESS"),
+)
+_SHORTEST = 3  # letters of an abbreviation
 
 Data = tuple[str, int, list[str]]
 """File, line from 1, and the fields of a data line."""
@@ -115,12 +125,23 @@ def _included(where: str, line: str, root: Path, included: list[Path], depth: in
 def _keyword(where: str, line: str) -> Keyword:
     """A keyword line in its parts; names may be written with any blanks and letters."""
     words = [word.strip() for word in _split(line[1:])]
+    keyword = _written_out(words[0], _READ)
     parameters: dict[str, str] = {}
     for word in words[1:]:
         if word:
             name, is_given, value = word.partition("=")
-            parameters[" ".join(name.upper().split())] = value.strip().strip("\"'") if is_given else ""
-    return Keyword(" ".join(words[0].upper().split()), parameters, where)
+            parameters[_written_out(name, _PARAMETERS)] = value.strip().strip("\"'") if is_given else ""
+    return Keyword(keyword, parameters, where)
+
+
+def _written_out(word: str, known: tuple[str, ...]) -> str:
+    """A keyword or parameter in capitals, in full where its first letters, without blanks, are those of one alone."""
+    bare = "".join(word.upper().split())
+    of_known = {"".join(name.split()): name for name in known}
+    if bare in of_known:
+        return of_known[bare]
+    fits = [name for short, name in of_known.items() if short.startswith(bare)] if len(bare) >= _SHORTEST else []
+    return fits[0] if len(fits) == 1 else " ".join(word.upper().split())
 
 
 def _split(line: str) -> list[str]:
