@@ -45,7 +45,6 @@ from fatigue.pipeline.tables.tally import Progress, Tally, body_warnings
 from fatigue.pipeline.tables.written import write_tables
 from fatigue.readers.neutral.spare_memory import give_back
 from fatigue.report.files.vtp import write_vtp
-from fatigue.report.page import write_report
 from fatigue.results import (
     PAGE,
     PICTURE,
@@ -262,6 +261,8 @@ def write_records(
 
 def write_page_and_picture(folder: Path, case: Case, verification: Verification) -> list[Path]:
     """Write page and picture beside the tables of a result that is not published yet, and return their paths."""
+    from fatigue.report.page import write_report  # noqa: PLC0415 - its figures take a while to load, tables need none
+
     checks = verification() if callable(verification) else verification
     stage("writing %s and %s", PAGE, PICTURE)
     return [write_vtp(folder, folder), write_report(folder, case.path, checks, folder)]
