@@ -42,5 +42,5 @@ def test_double_precision_is_had_for_the_asking(tmp_path, monkeypatch):
 
 def test_another_word_is_refused(tmp_path):
     """With the words there are."""
-    with pytest.raises(CaseError, match="precision: .half. is no precision"):
+    with pytest.raises(CaseError, match="is no precision of counting"):
         assess(small_case().write(tmp_path / "case"), tmp_path / "result", precision="half")
