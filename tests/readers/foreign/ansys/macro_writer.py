@@ -19,7 +19,7 @@ def f12(number: int) -> str:
 
 
 def macro_text(elements, modes) -> str:
-    """Text of the macro: ``elements`` by routine, (id, nodes) rows; modes (number, frequency, nodes, shape, rows, f)."""
+    """Text of the macro: rows (id, nodes) by routine; modes (number, frequency, nodes, shape, rows, force)."""
     lines = ["fatigue export 1 ANSYS"]
     for routine, rows in elements.items():
         lines.append(f"*elements {2 + len(rows[0][1])} {f12(len(rows))}{str(routine) + '.':>8}")
