@@ -12,7 +12,9 @@ _OP2 = "Request GPFORCE(PLOT) with PARAM,POST,-1 and give the .op2"
 _CHANNELS = "Export time and modal coordinates as CSV"
 AS_CSV = "Save the sheet as CSV (UTF-8)"
 UNPACK = "Unpack it and give the file inside"
-_ANSYS_FORCES = "Write its forces with the macro that `fatigue request ansys` writes, and give its text to --forces, the .cdb to --mesh"
+_ANSYS_FORCES = (
+    "Export it with the macro that `fatigue request ansys` writes: the text is for --forces, the .cdb for --mesh"
+)
 _ABAQUS_FORCES = (
     "Export it with abaqus_export.py (fatigue example DIR --requests), and give the text to --forces and --mesh"
 )
