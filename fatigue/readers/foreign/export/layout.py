@@ -19,6 +19,7 @@ from fatigue.errors import DataError, Problem
 VERSION = 1
 HEAD = re.compile(r"\Afatigue export (\d+) (\S+) ?([^\r\n]*)\r?\n")
 _BLOCK = re.compile(r"\*(\w+) (\d{1,3}) (\d{1,12})(?: (.*))?\Z")
+_NAMES = frozenset({"nodes", "elements", "sections", "layered", "mode", "static", "shape", "forces"})
 _AT_ONCE = 20_000  # rows turned into numbers together
 
 
@@ -62,6 +63,8 @@ def blocks(path: Path, wanted: frozenset[str] | None = None) -> Iterator[Block]:
                 if found is None:
                     raise _damaged(path, number, f"the head of a block was expected, and {text[:40]!r} stands there")
                 name, columns, rows = found[1], int(found[2]), int(found[3])
+                if name not in _NAMES:
+                    raise _damaged(path, number, f"*{name} is no block of the layout ({', '.join(sorted(_NAMES))})")
                 if wanted is None or name in wanted:
                     yield Block(name, (found[4] or "").strip(), number, _numbers(path, file, number, columns, rows))
                 elif sum(1 for _ in islice(file, rows)) != rows:
