@@ -219,8 +219,8 @@ def _sections_of(part: _Part, sections: dict[int, Section], unconfirmed: dict[in
         own, ranges = part.sets.get(name.upper(), set()), part.ranges.get(name.upper(), [])
         members = (e for e in part.elements if e in own or any(e in labels for labels in ranges))
         for element in members:
-            if (own := of_element.setdefault(element, number)) != number:
-                unconfirmed[own] = f"section {own} shares elements with section {number}"
+            if (first := of_element.setdefault(element, number)) != number:
+                unconfirmed[first] = f"section {first} shares elements with section {number}"
     return of_element
 
 
