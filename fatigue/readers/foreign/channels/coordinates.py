@@ -40,7 +40,7 @@ def coordinates_of(
     groups = [group for group in groups if group.channels]
     if not groups:
         raise DataError(Problem("no_coordinates", str(path), "the file has no channels", "Export them again"))
-    says_q = any(_CALLED_Q.match(channel(one.name).base) for group in groups for one in group.channels)
+    says_q = any(called_q(one.name) for group in groups for one in group.channels)
     taken = [(group, _taken(group, columns, time_column, says_q=says_q)) for group in groups]
     used = [(group, at) for group, at in taken if at]
     if columns is None and not any(_mode(group, k) for group, at in used for k in at):
@@ -59,6 +59,11 @@ def coordinates_of(
         raise DataError(Problem("no_time", str(path), what, "Export the channels with their time"))
     warnings = dict.fromkeys(warning for group, _ in used for warning in group.warnings)
     return _history(path, used, columns, time_column, (*warnings, *_left_out(path, groups, used)))
+
+
+def called_q(name: str) -> bool:
+    """Whether a channel is called as modal coordinates are, as ``q_12``."""
+    return _CALLED_Q.match(channel(name).base) is not None
 
 
 def _history(
@@ -92,9 +97,7 @@ def _taken(
     if columns is not None:
         wanted = {composed(name) for name in (*columns, *filter(None, [time_column]))}
         return [k for k, name in enumerate(names) if {composed(name), composed(channel(name).base)} & wanted]
-    numbered = [
-        k for k, name in enumerate(names) if _mode(group, k) and (not says_q or _CALLED_Q.match(channel(name).base))
-    ]
+    numbered = [k for k, name in enumerate(names) if _mode(group, k) and (not says_q or called_q(name))]
     beside = [
         k
         for k, name in enumerate(names)
