@@ -13,7 +13,7 @@ from fatigue.readers.foreign.channels.group import ChannelGroup, RecordedChannel
 from fatigue.readers.foreign.histories.foreign_history import ForeignHistory
 from fatigue.readers.foreign.histories.header import Header
 from fatigue.readers.foreign.histories.table_history import history_of_table, with_unit
-from fatigue.readers.units.channel_names import channel, without_unit_one
+from fatigue.readers.units.channel_names import Channel, channel, without_unit_one
 
 _TIME = RecordedChannel("time", "s")
 _CALLED_Q = re.compile(r"(?:\A|.*[^a-z])(?:q|eta|modal[ _]?coord\w*)[ _.(\[]*\d+[)\] ]*\Z", re.IGNORECASE | re.DOTALL)
@@ -83,7 +83,8 @@ def _history(
     channels = []
     for (one, group), name in zip(own, without_unit_one(names), strict=True):
         place = f"{path}, group {group!r}" if group else str(path)
-        channels.append(with_unit(f"{place}, channel {one.name!r}", channel(name), one.unit))
+        stated = _with_number(channel(name), one)
+        channels.append(with_unit(f"{place}, channel {one.name!r}", stated, one.unit))
     table = np.concatenate(values).T.astype(np.float64, copy=False)
     history = history_of_table(path, Header((names,), tuple(channels), (), ()), table, None, columns, time_column)
     return replace(history, warnings=(*history.warnings, *warnings))
@@ -107,7 +108,14 @@ def _taken(
 
 
 def _mode(group: ChannelGroup, k: int) -> int:
-    return channel(group.channels[k].name).mode
+    return group.channels[k].mode or channel(group.channels[k].name).mode
+
+
+def _with_number(own: Channel, one: RecordedChannel) -> Channel:
+    """Channel with the number of its mode and the frequency that the file states beside its name."""
+    if np.isfinite(one.frequency):
+        own = replace(own, frequency=one.frequency, resolution=one.resolution)
+    return replace(own, mode=one.mode or own.mode)
 
 
 def _is_own_time(group: ChannelGroup, k: int) -> bool:
