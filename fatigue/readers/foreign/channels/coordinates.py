@@ -17,6 +17,7 @@ from fatigue.readers.units.channel_names import Channel, channel, without_unit_o
 
 _TIME = RecordedChannel("time", "s")
 _CALLED_Q = re.compile(r"(?:\A|.*[^a-z])(?:q|eta|modal[ _]?coord\w*)[ _.(\[]*\d+[)\] ]*\Z", re.IGNORECASE | re.DOTALL)
+_OF_BODY = re.compile(r"(.*?)[^a-z0-9]*(?:q|eta|modal[ _]?coord\w*)[ _.(\[]*\d+[)\] ]*\Z", re.IGNORECASE | re.DOTALL)
 _LOAD = "u_"
 
 
@@ -35,7 +36,8 @@ def coordinates_of(
     Raises
     ------
     DataError
-        no such channels, or some without time, some on different time bases; whatever ``history_of_table`` refuses
+        no such channels, or some without time, some on different time bases, coordinates of several bodies; whatever
+        ``history_of_table`` refuses
     """
     groups = [group for group in groups if group.channels]
     if not groups:
@@ -45,6 +47,8 @@ def coordinates_of(
     used = [(group, at) for group, at in taken if at]
     if columns is None and not any(_mode(group, k) for group, at in used for k in at):
         used = [(group, list(range(len(group.channels)))) for group in groups]  # to be joined in order
+    if columns is None:
+        _refuse_several_bodies(path, used)
     if not used:
         named = ", ".join(repr(name) for name in list(columns or ())[:8])
         what = f"none of the channels {named} is there; the file has {_listed(groups)}"
@@ -105,6 +109,21 @@ def _taken(
         if k not in numbered and (name == time_column or name.startswith(_LOAD) or _is_own_time(group, k))
     ]
     return sorted([*numbered, *beside]) if numbered else []
+
+
+def _refuse_several_bodies(path: Path, used: Sequence[tuple[ChannelGroup, list[int]]]) -> None:
+    """Refuse coordinates called q of several bodies: modes of one would fill the gaps of another."""
+    bodies: dict[str, str] = {}
+    for group, at in used:
+        for k in at:
+            name = group.channels[k].name
+            if called := _OF_BODY.match(channel(name).base):
+                bodies.setdefault(called[1].lower(), name)
+    if len(bodies) > 1:
+        shown = ", ".join(repr(name) for name in list(bodies.values())[:4])
+        what = f"the channels are coordinates of {len(bodies)} bodies: {shown}"
+        remedy = "Name those of one body by --columns (a file of 'column,mode')"
+        raise DataError(Problem("several_bodies", str(path), what, remedy))
 
 
 def _mode(group: ChannelGroup, k: int) -> int:
