@@ -112,8 +112,7 @@ def _samples(path: Path, head: Mapping[str, str], group: int) -> int:
 
 
 def _channel(head: Mapping[str, str], number: int) -> RecordedChannel:
-    name = head.get(f"DESC.CHAN_{number}", "") or f"channel {number}"
-    return RecordedChannel(name, head.get(f"UNITS.CHAN_{number}", ""))
+    return RecordedChannel(head.get(f"DESC.CHAN_{number}", ""), head.get(f"UNITS.CHAN_{number}", ""))
 
 
 def _values(path: Path, layout: _Layout, scale: NDArray[np.float64], at: Sequence[int]) -> NDArray[np.floating]:

@@ -135,3 +135,13 @@ def test_a_last_frame_filled_with_its_last_values_is_told(tmp_path):
     assert read_channels(path)[0].warnings == ()
     write_rpc(path, VALUES, SAMPLES=300)
     assert read_channels(path)[0].warnings == ()
+
+
+def test_channels_without_a_description_are_no_modes(tmp_path):
+    """Their positions are listed as names; a mode they name only where they are joined in order."""
+    path = tmp_path / "run.rsp"
+    write_rpc(path, VALUES, names=["", "", ""])
+    assert [one.name for one in read_channels(path)[0].channels] == ["channel 1", "channel 2", "channel 3"]
+    history = read_coordinates(path, None, None)
+    assert history.mode.tolist() == [0, 0, 0]
+    np.testing.assert_array_equal(history.q, read_channels(path)[0].values([0, 1, 2]))
