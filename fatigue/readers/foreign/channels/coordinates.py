@@ -13,7 +13,7 @@ from fatigue.readers.foreign.channels.group import ChannelGroup, RecordedChannel
 from fatigue.readers.foreign.histories.foreign_history import ForeignHistory
 from fatigue.readers.foreign.histories.header import Header
 from fatigue.readers.foreign.histories.table_history import history_of_table, with_unit
-from fatigue.readers.units.channel_names import channel, without_unit_one
+from fatigue.readers.units.channel_names import Channel, channel, without_unit_one
 
 _TIME = RecordedChannel("time", "s")
 _CALLED_Q = re.compile(r"(?:\A|.*[^a-z])(?:q|eta|modal[ _]?coord\w*)[ _.(\[]*\d+[)\] ]*\Z", re.IGNORECASE | re.DOTALL)
@@ -42,7 +42,7 @@ def coordinates_of(
     groups = [group for group in groups if group.channels]
     if not groups:
         raise DataError(Problem("no_coordinates", str(path), "the file has no channels", "Export them again"))
-    says_q = any(_CALLED_Q.match(channel(one.name).base) for group in groups for one in group.channels)
+    says_q = any(called_q(one.name) for group in groups for one in group.channels)
     taken = [(group, _taken(group, columns, time_column, says_q=says_q)) for group in groups]
     used = [(group, at) for group, at in taken if at]
     if columns is None and not any(_mode(group, k) for group, at in used for k in at):
@@ -65,6 +65,11 @@ def coordinates_of(
     return _history(path, used, columns, time_column, (*warnings, *_left_out(path, groups, used)))
 
 
+def called_q(name: str) -> bool:
+    """Whether a channel is called as modal coordinates are, as ``q_12``."""
+    return _CALLED_Q.match(channel(name).base) is not None
+
+
 def _history(
     path: Path,
     used: Sequence[tuple[ChannelGroup, list[int]]],
@@ -82,7 +87,8 @@ def _history(
     channels = []
     for (one, group), name in zip(own, without_unit_one(names), strict=True):
         place = f"{path}, group {group!r}" if group else str(path)
-        channels.append(with_unit(f"{place}, channel {one.name!r}", channel(name), one.unit))
+        stated = _with_number(channel(name), one)
+        channels.append(with_unit(f"{place}, channel {one.name!r}", stated, one.unit))
     table = np.concatenate(values).T.astype(np.float64, copy=False)
     history = history_of_table(path, Header((names,), tuple(channels), (), ()), table, None, columns, time_column)
     return replace(history, warnings=(*history.warnings, *warnings))
@@ -96,9 +102,7 @@ def _taken(
     if columns is not None:
         wanted = {composed(name) for name in (*columns, *filter(None, [time_column]))}
         return [k for k, name in enumerate(names) if {composed(name), composed(channel(name).base)} & wanted]
-    numbered = [
-        k for k, name in enumerate(names) if _mode(group, k) and (not says_q or _CALLED_Q.match(channel(name).base))
-    ]
+    numbered = [k for k, name in enumerate(names) if _mode(group, k) and (not says_q or called_q(name))]
     beside = [
         k
         for k, name in enumerate(names)
@@ -123,7 +127,14 @@ def _refuse_several_bodies(path: Path, used: Sequence[tuple[ChannelGroup, list[i
 
 
 def _mode(group: ChannelGroup, k: int) -> int:
-    return channel(group.channels[k].name).mode
+    return group.channels[k].mode or channel(group.channels[k].name).mode
+
+
+def _with_number(own: Channel, one: RecordedChannel) -> Channel:
+    """Channel with the number of its mode and the frequency that the file states beside its name."""
+    if np.isfinite(one.frequency):
+        own = replace(own, frequency=one.frequency, resolution=one.resolution)
+    return replace(own, mode=one.mode or own.mode)
 
 
 def _is_own_time(group: ChannelGroup, k: int) -> bool:
