@@ -14,6 +14,8 @@ from typing import Any
 
 from fatigue.files.known_formats import (
     ADAMS,
+    ANSYS_TEXT,
+    CDB,
     DECK,
     EXPORT,
     HDF5,
@@ -315,6 +317,24 @@ FORMATS = (
             MESH: Reader("export.read.read_export_model", "the text of the export script", "text of the export script"),
         },
         looks_like="export.layout.is_export",
+    ),
+    ForeignFormat(
+        "ansys",
+        ANSYS_TEXT.name,
+        ending="the text of the ANSYS macro",
+        place=4,
+        reads={
+            FORCES: Reader("ansys.forces.read_ansys_forces", "the text of the ANSYS macro", "text of the ANSYS macro")
+        },
+        looks_like="ansys.forces.is_ansys_export",
+    ),
+    ForeignFormat(
+        "cdb",
+        CDB.name,
+        ending=".cdb",
+        place=4,
+        reads={MESH: Reader("ansys.archive.read_archive", "an ANSYS .cdb", "ANSYS .cdb")},
+        looks_like="ansys.archive.is_archive",
     ),
 )
 """From the usual to the special: messages name them in this order, a file is recognised in the reverse one."""

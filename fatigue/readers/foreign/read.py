@@ -93,8 +93,16 @@ def read_coordinates(path: Path, columns: dict[str, int] | None, time_column: st
 
 
 def read_channels(path: Path) -> tuple[ChannelGroup, ...]:
-    """All channels of a file, in groups, from any format that holds them."""
+    """All channels of a file, in groups, from any format that holds them.
+
+    Raises
+    ------
+    DataError : no channel of numbers, whatever the reader refuses
+    """
     groups: tuple[ChannelGroup, ...] = _reader(path, CHANNELS)[1](path)
+    if not any(group.channels for group in groups):
+        what = "the file has no channels of numbers"
+        raise DataError(Problem("no_channels", str(path), what, "Export the channels again"))
     return groups
 
 

@@ -17,6 +17,7 @@ from fatigue.readers.units.channel_names import Channel, channel, without_unit_o
 
 _TIME = RecordedChannel("time", "s")
 _CALLED_Q = re.compile(r"(?:\A|.*[^a-z])(?:q|eta|modal[ _]?coord\w*)[ _.(\[]*\d+[)\] ]*\Z", re.IGNORECASE | re.DOTALL)
+_OF_BODY = re.compile(r"(.*?)[^a-z0-9]*(?:q|eta|modal[ _]?coord\w*)[ _.(\[]*\d+[)\] ]*\Z", re.IGNORECASE | re.DOTALL)
 _LOAD = "u_"
 
 
@@ -35,16 +36,19 @@ def coordinates_of(
     Raises
     ------
     DataError
-        no such channels, or some without time, some on different time bases; whatever ``history_of_table`` refuses
+        no such channels, or some without time, some on different time bases, coordinates of several bodies; whatever
+        ``history_of_table`` refuses
     """
     groups = [group for group in groups if group.channels]
     if not groups:
         raise DataError(Problem("no_coordinates", str(path), "the file has no channels", "Export them again"))
-    says_q = any(_CALLED_Q.match(channel(one.name).base) for group in groups for one in group.channels)
+    says_q = any(called_q(one.name) for group in groups for one in group.channels)
     taken = [(group, _taken(group, columns, time_column, says_q=says_q)) for group in groups]
     used = [(group, at) for group, at in taken if at]
     if columns is None and not any(_mode(group, k) for group, at in used for k in at):
         used = [(group, list(range(len(group.channels)))) for group in groups]  # to be joined in order
+    if columns is None:
+        _refuse_several_bodies(path, used)
     if not used:
         named = ", ".join(repr(name) for name in list(columns or ())[:8])
         what = f"none of the channels {named} is there; the file has {_listed(groups)}"
@@ -59,6 +63,11 @@ def coordinates_of(
         raise DataError(Problem("no_time", str(path), what, "Export the channels with their time"))
     warnings = dict.fromkeys(warning for group, _ in used for warning in group.warnings)
     return _history(path, used, columns, time_column, (*warnings, *_left_out(path, groups, used)))
+
+
+def called_q(name: str) -> bool:
+    """Whether a channel is called as modal coordinates are, as ``q_12``."""
+    return _CALLED_Q.match(channel(name).base) is not None
 
 
 def _history(
@@ -93,15 +102,28 @@ def _taken(
     if columns is not None:
         wanted = {composed(name) for name in (*columns, *filter(None, [time_column]))}
         return [k for k, name in enumerate(names) if {composed(name), composed(channel(name).base)} & wanted]
-    numbered = [
-        k for k, name in enumerate(names) if _mode(group, k) and (not says_q or _CALLED_Q.match(channel(name).base))
-    ]
+    numbered = [k for k, name in enumerate(names) if _mode(group, k) and (not says_q or called_q(name))]
     beside = [
         k
         for k, name in enumerate(names)
         if k not in numbered and (name == time_column or name.startswith(_LOAD) or _is_own_time(group, k))
     ]
     return sorted([*numbered, *beside]) if numbered else []
+
+
+def _refuse_several_bodies(path: Path, used: Sequence[tuple[ChannelGroup, list[int]]]) -> None:
+    """Refuse coordinates called q of several bodies: modes of one would fill the gaps of another."""
+    bodies: dict[str, str] = {}
+    for group, at in used:
+        for k in at:
+            name = group.channels[k].name
+            if called := _OF_BODY.match(channel(name).base):
+                bodies.setdefault(called[1].lower(), name)
+    if len(bodies) > 1:
+        shown = ", ".join(repr(name) for name in list(bodies.values())[:4])
+        what = f"the channels are coordinates of {len(bodies)} bodies: {shown}"
+        remedy = "Name those of one body by --columns (a file of 'column,mode')"
+        raise DataError(Problem("several_bodies", str(path), what, remedy))
 
 
 def _mode(group: ChannelGroup, k: int) -> int:

@@ -250,5 +250,5 @@ def test_a_damaged_text_is_refused_with_its_line(text, tmp_path, change, code, s
 
 def test_the_script_reaches_its_user(tmp_path):
     """As a file beside the tables to fill in."""
-    (path,) = write_requests(tmp_path)
+    path = next(path for path in write_requests(tmp_path) if path.name == SCRIPT.name)
     assert path.read_bytes() == SCRIPT.read_bytes()
