@@ -1,4 +1,4 @@
-"""Solid meshes of joints: blocks of hexahedra and wedges, joined where their nodes coincide, as solid meshes and decks."""
+"""Solid meshes of joints: blocks of hexahedra and wedges joined where their nodes coincide, and their decks."""
 
 from collections.abc import Callable, Sequence
 from itertools import pairwise, product
@@ -66,9 +66,7 @@ class Solids:
                     middle[key] = len(xyz) + 1
                     xyz[middle[key]] = (xyz[corners[a]] + xyz[corners[b]]) / 2
                 mids.append(middle[key])
-            solids.append(
-                Solid(number, pid, tuple(renumber(n) for n in corners), tuple(renumber(n) for n in mids))
-            )
+            solids.append(Solid(number, pid, tuple(renumber(n) for n in corners), tuple(renumber(n) for n in mids)))
         return {renumber(n): move(place) for n, place in xyz.items()}, solids
 
 

@@ -53,7 +53,7 @@ def with_forces_only(found: FoundWelds, results: FeResults) -> FoundWelds:
 
 
 def _strange_at(results: FeResults, of_solids: bool) -> dict[int, str]:
-    """Nodes of elements that are no plates of the kind of a cut, of shells or of solids, with the kind of the element."""
+    """Nodes of elements that do not belong to a cut of shells, or of solids, with the kind of the element."""
     known = (SOLID_KINDS if of_solids else SHELL_KINDS) | _CONNECTORS
     strange = results.of_element & ~np.isin(results.kind, sorted(known))
     return dict(zip(results.node[strange].tolist(), results.kind[strange].tolist(), strict=True))

@@ -17,8 +17,11 @@ from fatigue.weld.line_geometry import length, unit
 from fatigue.weld.mesh import NONE
 from fatigue.weld.solid.skin import BRANCHES, FORMS, FREE, SIDES, Skin
 
-SLANT_DEG = 30.0
-"""Two faces of a plate are parallel, and columns perpendicular to them, within this angle."""
+PARALLEL_DEG = 30.0
+"""Two faces of a plate are parallel within this angle."""
+
+SLANT_DEG = 20.0
+"""Columns are perpendicular to the surface within this angle."""
 
 THICKEST = 2.0
 """A plate is not thicker than this times the length of the line."""
@@ -27,7 +30,7 @@ _BENT = 0.1
 """Nodes of a column lie on one straight line within this fraction of its length."""
 
 _NAMES = {8: "hexahedron", 6: "pentahedron", 4: "tetrahedron"}
-_PARALLEL = np.cos(np.radians(SLANT_DEG))
+_PARALLEL, _SLANT = np.cos(np.radians((PARALLEL_DEG, SLANT_DEG)))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -155,7 +158,7 @@ def _no_plate(
     if thickness.mean() > THICKEST * along:
         return f"{thickness.mean():.3g} mm thick beside a line of {along:.3g} mm: no plate"
     slant = np.einsum("ij,ij->i", unit(through), unit(cut.line.normal))
-    if slant.min() < _PARALLEL:
+    if slant.min() < _SLANT:
         k = int(np.argmin(slant))
         angle = np.degrees(np.arccos(np.clip(slant[k], -1.0, 1.0)))
         return f"the column of node {cut.line.node[k]} is {angle:.0f} degrees off the normal of the surface: no plate"

@@ -55,7 +55,7 @@ def _solid_rows(results: FeResults, model: FeModel) -> tuple[NDArray[np.bool_], 
 def _of_elements(
     results: FeResults, element: NDArray[np.int64], ids: NDArray[np.int64], around: NDArray[np.int64]
 ) -> tuple[NDArray[np.int64], NDArray[np.bool_], NDArray[np.bool_]]:
-    """Position of each row's element among elements of nodes ``around``, (e, k); whether it is a row of it, and whole."""
+    """Position of each row's element among elements of nodes ``around``, (e, k); whether it is its own, and whole."""
     if not element.size:
         none = np.zeros(results.node.size, bool)
         return np.zeros(results.node.size, np.int64), none, none
@@ -69,7 +69,7 @@ def _of_elements(
 
 
 def whole_rows(results: FeResults, model: FeModel) -> NDArray[np.bool_]:
-    """Rows of elements that have forces at all their nodes, (r,): shells, solids, and others as far as their kind tells.
+    """Rows of elements that have forces at all their nodes, (r,): plates, and others as far as their kind tells.
 
     Rigid elements, of any number of nodes, do no work and are left out.
     """
