@@ -153,9 +153,7 @@ def test_rotating_the_model_rotates_nothing_that_is_read():
     turn, _ = np.linalg.qr(rng.normal(size=(3, 3)))
     turn *= np.linalg.det(turn)
     moved = rng.normal(size=3) * 100
-    there = replace(
-        line, xyz=line.xyz @ turn.T + moved, normal=line.normal @ turn.T, outward=line.outward @ turn.T
-    )
+    there = replace(line, xyz=line.xyz @ turn.T + moved, normal=line.normal @ turn.T, outward=line.outward @ turn.T)
     rotated = np.concatenate([forces[..., :3] @ turn.T, forces[..., 3:] @ turn.T], axis=-1)
     at = replace(columns, xyz=columns.xyz @ turn.T + moved)
     ours = assess_line(line, collapsed(columns, line.xyz, forces)).raw
