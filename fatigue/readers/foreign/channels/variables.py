@@ -116,9 +116,11 @@ def cells(some: Sequence[Any]) -> Any:
 
 def in_order(variables: Variables) -> Variables:
     """Variables with those of one name and a number in the order of these: files keep them by the alphabet."""
-    stems = [re.sub(r"\d+", "", name) for name in variables]
-    numbers = {name: [int(number) for number in re.findall(r"\d+", name)] for name in variables}
-    place = {name: (stems.index(stem), numbers[name]) for name, stem in zip(variables, stems, strict=True)}
+    stems: dict[str, int] = {}
+    place = {
+        name: (stems.setdefault(re.sub(r"\d+", "", name), len(stems)), [int(n) for n in re.findall(r"\d+", name)])
+        for name in variables
+    }
     return {name: variables[name] for name in sorted(variables, key=place.__getitem__)}
 
 
