@@ -163,7 +163,9 @@ def angle(reentrant, quadratic, lines=("seam", "seam")):
         force = model.element_forces(u).reshape(-1, 3)
         table = pd.DataFrame(force, columns=FORCE[:3]).assign(**dict.fromkeys(FORCE[3:], 0.0), mode=mode)
         n = model.bricks.shape[1]
-        forces.append(table.assign(node=model.bricks.ravel() + 1, element=np.repeat(np.arange(len(model.bricks)) + 1, n)))
+        forces.append(
+            table.assign(node=model.bricks.ravel() + 1, element=np.repeat(np.arange(len(model.bricks)) + 1, n))
+        )
     case.tables["element_forces"] = pd.concat(forces, ignore_index=True)
     case.tables["weld_elements"] = pd.concat(sides, ignore_index=True)
     return case
@@ -262,6 +264,18 @@ def test_shells_beside_solids_keep_their_stress(tmp_path):
         if hasattr(of_shells.stations.treated, name):
             one, other = (getattr(m.stations.treated, name)[right] for m in (with_solids, of_shells))
             assert np.array_equal(one, other)
+
+
+@pytest.mark.parametrize("form", ["element_forces", "nodal_forces"])
+def test_forces_of_bricks_without_the_table_of_columns_are_told(form, tmp_path):
+    """Only the top nodes would count: no moment anywhere gives it away."""
+    case = tee_case(form=form)
+    of_solids = check_case(case.write(tmp_path / "solid")).warnings
+    assert "no_moments" not in [warning.code for warning in of_solids]
+    del case.tables["weld_columns"]
+    told = [one for one in check_case(case.write(tmp_path / "shells")).warnings if one.code == "no_moments"]
+    assert len(told) == 1
+    assert "weld_columns" in told[0].remedy
 
 
 def test_a_case_needs_positions_of_its_columns(tmp_path):
