@@ -130,7 +130,9 @@ def _positions(table: Table, node: NDArray[np.int64], mesh: Mesh | None) -> Vect
     if moved.any():
         row = int(moved.argmax())
         what = f"node {node[row]} is {apart[row]:.3g} mm away from where the table of nodes has it"
-        table.report(moved, "moved_node", "x_mm", what, "Write both tables from one mesh, or leave x_mm, y_mm, z_mm out")
+        table.report(
+            moved, "moved_node", "x_mm", what, "Write both tables from one mesh, or leave x_mm, y_mm, z_mm out"
+        )
     return given
 
 
