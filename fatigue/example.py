@@ -31,17 +31,6 @@ def write_templates(folder: Path | str, *, force: bool = False) -> list[Path]:
     return [folder / name for name in _copy(_shipped("templates"), folder, force=force)]
 
 
-def write_requests(folder: Path | str, *, force: bool = False) -> list[Path]:
-    """Copy the scripts that export forces and mesh from other solvers into a folder; return them.
-
-    Raises
-    ------
-    DataError : as ``write_example``
-    """
-    folder = given_path(folder, "folder")
-    return [folder / name for name in _copy(_shipped("requests"), folder, force=force)]
-
-
 _REQUESTS = {"abaqus": "abaqus_export.py", "ansys": "ansys_export.mac", "nastran": "nastran_cards.bdf"}
 
 

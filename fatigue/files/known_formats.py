@@ -16,7 +16,7 @@ _ANSYS_FORCES = (
     "Export it with the macro that `fatigue request ansys` writes: the text is for --forces, the .cdb for --mesh"
 )
 _ABAQUS_FORCES = (
-    "Export it with abaqus_export.py (fatigue example DIR --requests), and give the text to --forces and --mesh"
+    "Export it with abaqus_export.py (fatigue request abaqus -o FILE), and give the text to --forces and --mesh"
 )
 _PANDAS = "Turn it into Parquet: python -c \"import pandas as p; p.{0}('FILE').to_parquet('FILE.parquet')\""
 

@@ -21,6 +21,7 @@ class ColumnShape:
     off_outer : (n,) distance of the station from the nearer outer node [mm]
     lean_deg : (n,) angle between the normal and the line through the outer nodes, 0 to 90 [degrees]
     bow : (n,) largest distance of a node from that line [mm]
+    top : (n,) node on the side to which the normal points
     """
 
     reach: NDArray[np.float64]
@@ -28,6 +29,7 @@ class ColumnShape:
     off_outer: NDArray[np.float64]
     lean_deg: NDArray[np.float64]
     bow: NDArray[np.float64]
+    top: NDArray[np.int64]
 
 
 def column_shape(columns: Columns, mid: Vectors, normal: Vectors) -> ColumnShape:
@@ -50,4 +52,5 @@ def column_shape(columns: Columns, mid: Vectors, normal: Vectors) -> ColumnShape
         off_outer=np.minimum(np.linalg.norm(low - mid, axis=1), np.linalg.norm(high - mid, axis=1)),
         lean_deg=np.degrees(np.arccos(cosine)),
         bow=np.maximum.reduceat(np.linalg.norm(aside, axis=1), start),
+        top=columns.node[by_height[columns.begin[1:] - 1]],
     )

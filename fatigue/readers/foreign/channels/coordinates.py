@@ -36,8 +36,8 @@ def coordinates_of(
     Raises
     ------
     DataError
-        no such channels, or some without time, some on different time bases, coordinates of several bodies; whatever
-        ``history_of_table`` refuses
+        no such channels, or some without time, some on different time bases, coordinates of several bodies or
+        runs; whatever ``history_of_table`` refuses
     """
     groups = [group for group in groups if group.channels]
     if not groups:
@@ -48,6 +48,7 @@ def coordinates_of(
     if columns is None and not any(_mode(group, k) for group, at in used for k in at):
         used = [(group, list(range(len(group.channels)))) for group in groups]  # to be joined in order
     if columns is None:
+        _refuse_several_runs(path, used)
         _refuse_several_bodies(path, used)
     if not used:
         named = ", ".join(repr(name) for name in list(columns or ())[:8])
@@ -109,6 +110,18 @@ def _taken(
         if k not in numbered and (name == time_column or name.startswith(_LOAD) or _is_own_time(group, k))
     ]
     return sorted([*numbered, *beside]) if numbered else []
+
+
+def _refuse_several_runs(path: Path, used: Sequence[tuple[ChannelGroup, list[int]]]) -> None:
+    """Refuse groups with the same coordinates, as analyses or subcases are: each is an event of its own."""
+    first: dict[str, ChannelGroup] = {}
+    for group, at in used:
+        for name in (group.channels[k].name for k in at if _mode(group, k)):
+            if first.setdefault(name, group) is not group:
+                what = f"channel {name!r} is in groups {first[name].name!r} and {group.name!r}"
+                table = f"fatigue channels {path} --group {group.name!r} -o q.parquet"
+                remedy = f"Give each as an event, written by: {table}; or name those to take by --columns"
+                raise DataError(Problem("several_runs", str(path), what, remedy))
 
 
 def _refuse_several_bodies(path: Path, used: Sequence[tuple[ChannelGroup, list[int]]]) -> None:

@@ -112,8 +112,7 @@ def _samples(path: Path, head: Mapping[str, str], group: int) -> int:
 
 
 def _channel(head: Mapping[str, str], number: int) -> RecordedChannel:
-    name = head.get(f"DESC.CHAN_{number}", "") or f"channel {number}"
-    return RecordedChannel(name, head.get(f"UNITS.CHAN_{number}", ""))
+    return RecordedChannel(head.get(f"DESC.CHAN_{number}", ""), head.get(f"UNITS.CHAN_{number}", ""))
 
 
 def _values(path: Path, layout: _Layout, scale: NDArray[np.float64], at: Sequence[int]) -> NDArray[np.floating]:
@@ -121,7 +120,8 @@ def _values(path: Path, layout: _Layout, scale: NDArray[np.float64], at: Sequenc
     wanted = list(at)
     blocks, end = _stored(path, layout)
     found = np.concatenate([blocks[:, wanted].swapaxes(0, 1).reshape(len(wanted), -1), end[wanted]], axis=1)
-    return np.asarray(found * scale[wanted, None])
+    with np.errstate(invalid="ignore"):  # of numbers that are none, which are refused by their place
+        return np.asarray(found * scale[wanted, None])
 
 
 def _stored(path: Path, layout: _Layout) -> tuple[NDArray[Any], NDArray[Any]]:

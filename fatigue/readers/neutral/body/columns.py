@@ -158,7 +158,6 @@ def _mistakes(file: str, line: WeldLine, columns: Columns) -> Iterator[Problem]:
 def _of_shape(file: str, line: WeldLine, columns: Columns) -> tuple[list[Problem], list[Problem]]:
     """Mistakes and doubts about the shape of the columns of a weld: the first mistake, or one doubt of each kind."""
     shape, t = column_shape(columns, line.xyz, line.normal), line.thickness
-    refused: list[Problem] = []
     doubts: list[Problem] = []
     for code, measure, doubtful, absurd in (
         ("column_thickness", np.abs(shape.reach / t - 1.0), DOUBTFUL, ABSURD),
@@ -174,7 +173,14 @@ def _of_shape(file: str, line: WeldLine, columns: Columns) -> tuple[list[Problem
         if measure[at] > absurd:
             return [problem], []
         doubts.append(problem)
-    return refused, doubts
+    low = shape.top != line.node
+    if low.any():
+        at = int(low.argmax())
+        what = f"node {line.node[at]} of weld_nodes is not at the top, where the normal points to: node "
+        what += f"{shape.top[at]} is{_more(int(np.count_nonzero(low)))}"
+        remedy = "Turn the normal if top and bottom are confused, or give weld_nodes the node on the top surface"
+        doubts.append(Problem("not_top_node", f"{file}: weld {line.weld}, order {line.order[at]}", what, remedy))
+    return [], doubts
 
 
 def _told(code: str, line: WeldLine, shape: ColumnShape, at: int) -> tuple[str, str]:

@@ -19,7 +19,7 @@ from fatigue.errors import DataError, Problem
 from fatigue.readers.foreign.channels.group import ChannelGroup, RecordedChannel
 from fatigue.readers.foreign.channels.own_time import with_own_time
 from fatigue.readers.foreign.channels.quiet import quietly
-from fatigue.readers.foreign.channels.sheet_area import refuse_far_cells
+from fatigue.readers.foreign.channels.tables.sheet_area import refuse_far_cells
 from fatigue.readers.foreign.histories.header import Header, read_header
 from fatigue.readers.foreign.histories.number_rows import NumberRows
 from fatigue.readers.text.numbers import is_gap, is_number
