@@ -10,8 +10,8 @@ import pytest
 from fatigue.errors import DataError
 from fatigue.readers.convert.convert import convert
 from fatigue.readers.convert.options import ConvertOptions, WeldSources
-from fatigue.readers.convert.weld_lines import find_welds, list_welds
 from fatigue.readers.convert.weld_forces import with_forces_only
+from fatigue.readers.convert.weld_lines import find_welds, list_welds
 from fatigue.readers.foreign.read import read_forces, read_model
 from fatigue.readers.neutral.forces.convention import COMPONENTS
 from tests.command_line import assess, fatigue
@@ -30,7 +30,7 @@ def files(request, tmp_path_factory):
     (folder / "tee.bdf").write_text(solid_bulk(case))
     (folder / "tee.op2").write_bytes(modal_op2(case.results, word=8))
     time = np.arange(300) / 100
-    q = np.stack([0.01 * (k + 1) * np.sin((3 * k + 2) * time) for k in range(4)])
+    q = np.stack([2e-5 * (k + 1) * np.sin((3 * k + 2) * time) for k in range(4)])
     rows = [f"{t:.9g}," + ",".join(f"{x:.9g}" for x in q[:, k]) for k, t in enumerate(time)]
     (folder / "straight.csv").write_text("\n".join(["time," + ",".join(f"q_{k}" for k in range(1, 5)), *rows]) + "\n")
     return ConvertOptions(
