@@ -11,7 +11,7 @@ import numpy as np
 
 from fatigue.errors import DataError, Problem, given_path
 from fatigue.files.whole import replacing
-from fatigue.readers.convert.coordinate_lines import cuts_along, lines_text, read_given_lines
+from fatigue.readers.convert.coordinate_lines import cuts_along, read_given_lines
 from fatigue.readers.convert.joined_cuts import joined_cuts
 from fatigue.readers.convert.lines.marked import marked_edges
 from fatigue.readers.convert.lines.surfaces import (
@@ -24,6 +24,8 @@ from fatigue.readers.convert.lines.surfaces import (
     through_all,
 )
 from fatigue.readers.convert.options import WeldSources
+from fatigue.readers.convert.written_lines.moved_register import moved
+from fatigue.readers.convert.written_lines.points import lines_text
 from fatigue.readers.foreign.fe.model import FeModel, in_mm
 from fatigue.readers.foreign.read import read_model
 from fatigue.readers.neutral.register.register_file import open_register, register_text
@@ -149,7 +151,8 @@ def list_welds(
     ----------
     units : unit system of the model
     out : register to write; None: write nothing
-    lines : table of the lines to write, as points in space for another mesh; None: write nothing
+    lines : table of the lines to write, as points in space for another mesh; None: write nothing. The register has the
+        names of these lines then, so that it goes with them
 
     Raises
     ------
@@ -161,21 +164,36 @@ def list_welds(
     found = find_welds(model, sources)
     if not found.rows:
         raise DataError(no_welds(mesh))
-    if out is not None:
-        if out.exists() and out != sources.register and not overwrite:
-            raise DataError(
-                Problem("foreign_file", str(out), "the file exists", "Give it as the register too, or use --force")
-            )
-        with replacing(out) as unfinished:  # it may be the edited register that was read
-            unfinished.write_text(register_text(found.rows), "utf-8")
+    rows, warnings = list(found.rows), list(found.warnings)
+    if out is not None and out.exists() and out != sources.register and not overwrite:
+        raise DataError(
+            Problem("foreign_file", str(out), "the file exists", "Give it as the register too, or use --force")
+        )
     if lines is not None:
-        lines = given_path(lines, "lines")
-        if lines.exists() and not overwrite:
-            raise DataError(Problem("foreign_file", str(lines), "the file exists", "Use --force to overwrite it"))
-        cuts = [cut for row in found.rows if row.status == "assess" and (cut := found.cuts.get(row.line))]
-        with replacing(lines) as unfinished:
-            unfinished.write_text(lines_text(cuts), "utf-8")
-    return replace(found, warnings=(*model.warnings, *found.warnings))
+        rows, of_lines = _written_lines(model, found, given_path(lines, "lines"), overwrite)
+        warnings += of_lines
+    if out is not None:
+        with replacing(out) as unfinished:  # it may be the edited register that was read
+            unfinished.write_text(register_text(rows), "utf-8")
+    return replace(found, warnings=(*model.warnings, *warnings))
+
+
+def _written_lines(
+    model: FeModel, found: FoundWelds, lines: Path, overwrite: bool
+) -> tuple[list[RegisterRow], list[Problem]]:
+    """Write the lines that are no candidates as points in space; the register under the names these give, warnings."""
+    if lines.exists() and not overwrite:
+        raise DataError(Problem("foreign_file", str(lines), "the file exists", "Use --force to overwrite it"))
+    kept = [row for row in found.rows if row.status != "candidate" and row.line in found.cuts]
+    if not kept:
+        raise DataError(Problem("no_welds", str(lines), "there are no lines but candidates", "Use --candidates"))
+    with replacing(lines) as unfinished:
+        unfinished.write_text(lines_text(found.cuts[row.line] for row in kept), "utf-8")
+    try:
+        again = find_welds(model, WeldSources(lines=lines))
+    except DataError as error:  # as of plates that lie on one another: told, with the lines to correct
+        return list(found.rows), list(error.problems)
+    return moved(kept, found.cuts, {row.line: row for row in again.rows}, again.cuts, lines)
 
 
 def no_welds(mesh: Path) -> Problem:

@@ -10,6 +10,7 @@ import numpy as np
 from fatigue.errors import Problem, given_path
 from fatigue.readers.foreign.channels.group import ChannelGroup
 from fatigue.readers.foreign.read import read_channels, recognise
+from fatigue.readers.units.channel_names import channel
 
 STEP_TOLERANCE = 1e-3  # of a step, as for histories
 
@@ -78,7 +79,9 @@ class Recording:
             if not one.without_time and one.step > 0:
                 time += f" ({1.0 / one.step:.6g} Hz)" + ("" if one.is_even else ", in uneven steps")
             lines.append(f"{name}{count}, {time}")
-            lines += [f"  {channel}" + (f" [{unit}]" if unit else "") for channel, unit in one.channels]
+            lines += [
+                f"  {name}" + (f" [{unit}]" if unit and not channel(name).unit else "") for name, unit in one.channels
+            ]
         return "\n".join([*lines, *(f"note   {warning}" for warning in self.warnings)])
 
 

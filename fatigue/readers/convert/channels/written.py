@@ -111,6 +111,11 @@ def _chosen(path: Path, groups: Sequence[ChannelGroup], group: str | None, chann
         named = [one for one in groups if one.name == group]
         if not named:
             raise DataError(Problem("no_group", str(path), f"there is no group {group!r}", f"Name one of {names}"))
+        if len(named) > 1:
+            what = f"{len(named)} groups are named {group!r}"
+            raise DataError(
+                Problem("many_groups", str(path), what, "Name channels of one by --channel, without --group")
+            )
         found = named[0]
     else:
         having = [one for one in groups if set(channels) <= {c.name for c in one.channels}] if channels else []

@@ -218,7 +218,9 @@ def _sections_of(part: _Part, sections: dict[int, Section], unconfirmed: dict[in
             unconfirmed[number] = f"section {number} (elements {name}) {reason}"
         own, ranges = part.sets.get(name.upper(), set()), part.ranges.get(name.upper(), [])
         members = (e for e in part.elements if e in own or any(e in labels for labels in ranges))
-        of_element |= dict.fromkeys(members, number)
+        for element in members:
+            if (first := of_element.setdefault(element, number)) != number:
+                unconfirmed[first] = f"section {first} shares elements with section {number}"
     return of_element
 
 
