@@ -163,7 +163,9 @@ def angle(reentrant, quadratic, lines=("seam", "seam")):
         force = model.element_forces(u).reshape(-1, 3)
         table = pd.DataFrame(force, columns=FORCE[:3]).assign(**dict.fromkeys(FORCE[3:], 0.0), mode=mode)
         n = model.bricks.shape[1]
-        forces.append(table.assign(node=model.bricks.ravel() + 1, element=np.repeat(np.arange(len(model.bricks)) + 1, n)))
+        forces.append(
+            table.assign(node=model.bricks.ravel() + 1, element=np.repeat(np.arange(len(model.bricks)) + 1, n))
+        )
     case.tables["element_forces"] = pd.concat(forces, ignore_index=True)
     case.tables["weld_elements"] = pd.concat(sides, ignore_index=True)
     return case
