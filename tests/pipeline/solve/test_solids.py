@@ -266,6 +266,18 @@ def test_shells_beside_solids_keep_their_stress(tmp_path):
             assert np.array_equal(one, other)
 
 
+@pytest.mark.parametrize("form", ["element_forces", "nodal_forces"])
+def test_forces_of_bricks_without_the_table_of_columns_are_told(form, tmp_path):
+    """Only the top nodes would count: no moment anywhere gives it away."""
+    case = tee_case(form=form)
+    of_solids = check_case(case.write(tmp_path / "solid")).warnings
+    assert "no_moments" not in [warning.code for warning in of_solids]
+    del case.tables["weld_columns"]
+    told = [one for one in check_case(case.write(tmp_path / "shells")).warnings if one.code == "no_moments"]
+    assert len(told) == 1
+    assert "weld_columns" in told[0].remedy
+
+
 def test_a_case_needs_positions_of_its_columns(tmp_path):
     """Neither nodes nor coordinates."""
     case = tee_case(form="nodal_forces")
