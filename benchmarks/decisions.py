@@ -12,7 +12,7 @@ from fatigue.decide.whatif.forward import forward
 from fatigue.decide.whatif.stored import Kind, Stored, StoredRanges
 from fatigue.life.curves import catalogue, damage_law
 from fatigue.life.rule import CycleRule
-from fatigue.pipeline.solve.rated_curves import RatedCurve
+from fatigue.pipeline.solve.rated.rated_curves import RatedCurve
 
 POINTS, EVENTS, WELDS = 1_000_000, 13, 20_000
 RULES = {"screening": {"share_of_limit": 0.0}}

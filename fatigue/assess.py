@@ -37,8 +37,8 @@ from fatigue.pipeline.run.orders import Order
 from fatigue.pipeline.run.work import ScreeningOptions, Work, input_paths, key_of, open_work
 from fatigue.pipeline.run.workers import by_orders, by_threads
 from fatigue.pipeline.solve.body import Body, read_body
-from fatigue.pipeline.solve.curve_warnings import unverified_problems
 from fatigue.pipeline.solve.point_stress import point_stress
+from fatigue.pipeline.solve.rated.curve_warnings import unverified_problems
 from fatigue.pipeline.solve.weld_groups import check_forces, weld_groups
 from fatigue.pipeline.tables.provenance import provenance_record
 from fatigue.pipeline.tables.tally import Progress, Tally, body_warnings

@@ -5,7 +5,7 @@ from numbers import Real
 
 from fatigue.case import Case
 from fatigue.errors import Problem
-from fatigue.pipeline.solve.known_curves import curves_of_case
+from fatigue.pipeline.solve.rated.known_curves import curves_of_case
 
 STEEPEST = 50.0  # beyond any S-N curve: ranges in ue to this power are still numbers
 

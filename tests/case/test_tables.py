@@ -5,7 +5,7 @@ import json
 import pytest
 
 from fatigue.errors import CaseError
-from fatigue.pipeline.solve.rated_curves import curves_of_case
+from fatigue.pipeline.solve.rated.rated_curves import curves_of_case
 from tests.case.case_text import MINIMAL, OWN_CURVE
 
 

@@ -9,7 +9,7 @@ import pytest
 from fatigue.case import load_case
 from fatigue.life.curves import DamageLaw, damage_law
 from fatigue.life.rule import cycle_damage
-from fatigue.pipeline.solve.known_curves import curves_of_case
+from fatigue.pipeline.solve.rated.known_curves import curves_of_case
 from tests.small_case import small_case
 
 CURVES = {  # slopes, knees, range at 2e6, quantity

@@ -21,7 +21,7 @@ from fatigue.errors import DataError, Problem, refuse
 from fatigue.life.curves import DamageLaw
 from fatigue.life.rule import CycleRule
 from fatigue.pipeline.solve.assessed_body import assessed_body
-from fatigue.pipeline.solve.rated_curves import AskedCurve, RatedCurve, curves_of_case, rated_curves
+from fatigue.pipeline.solve.rated.rated_curves import AskedCurve, RatedCurve, curves_of_case, rated_curves
 from fatigue.readers.neutral.body.strength_factors import StrengthFactor, read_strength_factors
 
 Floats = NDArray[np.float64]

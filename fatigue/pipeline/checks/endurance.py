@@ -22,7 +22,7 @@ from fatigue.pipeline.checks.rows import NOT_ASSESSED, CheckRows, check_rows, jo
 from fatigue.pipeline.solve.body import Body
 from fatigue.pipeline.solve.compared_cases import endurance_range, looks_at_welds
 from fatigue.pipeline.solve.model import Model
-from fatigue.pipeline.solve.rated_curves import RatedCurve
+from fatigue.pipeline.solve.rated.rated_curves import RatedCurve
 from fatigue.readers.neutral.endurance.static_cases import CaseGroup
 from fatigue.readers.neutral.points.modal_stresses import PointStress
 

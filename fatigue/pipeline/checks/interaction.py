@@ -16,7 +16,7 @@ from fatigue.pipeline.count.result import GroupResult
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.multiaxial.method import DECIDING
 from fatigue.pipeline.solve.model import Model
-from fatigue.pipeline.solve.rated_curves import RatedCurve
+from fatigue.pipeline.solve.rated.rated_curves import RatedCurve
 from fatigue.pipeline.solve.stations import modal_stress
 
 Floats = NDArray[np.float64]

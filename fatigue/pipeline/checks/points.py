@@ -21,7 +21,7 @@ from fatigue.pipeline.count.mission_block import MissionBlock
 from fatigue.pipeline.count.overflow import no_overflow
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.solve.body import Body
-from fatigue.pipeline.solve.rated_curves import RatedCurve
+from fatigue.pipeline.solve.rated.rated_curves import RatedCurve
 from fatigue.readers.neutral.points.modal_stresses import PointStress
 from fatigue.readers.neutral.points.stress_points import AT_TOE, CHECK_OF, HAZ, StressPoints
 from fatigue.side_by_side import in_order

@@ -24,7 +24,7 @@ from fatigue.pipeline.checks.linear.signals import Signals, counted_mission
 from fatigue.pipeline.checks.rows import CheckRows, check_rows, joined
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.solve.model import Model
-from fatigue.pipeline.solve.rated_curves import RatedCurve
+from fatigue.pipeline.solve.rated.rated_curves import RatedCurve
 from fatigue.pipeline.solve.stations import Stations
 from fatigue.readers.neutral.body.throats import WeldThroat
 from fatigue.weld.structural_stress import StructuralStress

@@ -11,7 +11,7 @@ from fatigue.life.mission import Plan
 from fatigue.pipeline.count.result import GroupResult
 from fatigue.pipeline.count.worst import WorstPoint
 from fatigue.pipeline.solve.model import Model
-from fatigue.pipeline.solve.rated_curves import RatedCurve
+from fatigue.pipeline.solve.rated.rated_curves import RatedCurve
 from fatigue.pipeline.solve.stations import Stations
 
 Floats = NDArray[np.float64]

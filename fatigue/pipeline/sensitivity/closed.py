@@ -14,7 +14,7 @@ from fatigue.life.curves import DamageLaw
 from fatigue.life.mission import REFERENCE_CYCLES, Plan
 from fatigue.life.rule import CycleRule
 from fatigue.pipeline.sensitivity.notes import NOTHING
-from fatigue.pipeline.solve.rated_curves import RatedCurve
+from fatigue.pipeline.solve.rated.rated_curves import RatedCurve
 
 Floats = NDArray[np.float64]
 

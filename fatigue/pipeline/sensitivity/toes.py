@@ -19,7 +19,7 @@ from fatigue.pipeline.multiaxial.found import Found
 from fatigue.pipeline.sensitivity.closed import Floats
 from fatigue.pipeline.solve.modal_stress import ModalStress
 from fatigue.pipeline.solve.model import Model
-from fatigue.pipeline.solve.rated_curves import RatedCurve
+from fatigue.pipeline.solve.rated.rated_curves import RatedCurve
 from fatigue.pipeline.solve.stations import modal_stress
 
 

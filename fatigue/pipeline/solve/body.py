@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 from fatigue.case import Case, case_warnings, check_files
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.files.look_alike import name_warnings
-from fatigue.pipeline.solve.check_curves import path_problems, point_curves, throat_curves
 from fatigue.pipeline.solve.compared_cases import Compared, endurance_curves, read_compared, refuse_wrong_checks
-from fatigue.pipeline.solve.curve_warnings import cutoff_warnings, thin_plate_warnings, unverified_warnings
-from fatigue.pipeline.solve.rated_curves import (
+from fatigue.pipeline.solve.rated.check_curves import path_problems, point_curves, throat_curves
+from fatigue.pipeline.solve.rated.curve_warnings import cutoff_warnings, thin_plate_warnings, unverified_warnings
+from fatigue.pipeline.solve.rated.rated_curves import (
     RatedCurve,
     asked_curves,
     attachment_problems,

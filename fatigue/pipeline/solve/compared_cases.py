@@ -10,7 +10,7 @@ from fatigue.case import Case, EnduranceCheck, Interaction
 from fatigue.errors import CaseError, Problem, refuse
 from fatigue.life.curves import SNCurve
 from fatigue.life.endurance.haigh import EnduranceLine
-from fatigue.pipeline.solve.rated_curves import AskedCurve, RatedCurve
+from fatigue.pipeline.solve.rated.rated_curves import AskedCurve, RatedCurve
 from fatigue.readers.neutral.body.coordinates import Coordinates
 from fatigue.readers.neutral.body.welds import Weld
 from fatigue.readers.neutral.endurance.endurance_lines import read_endurance_lines

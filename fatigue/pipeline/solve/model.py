@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from fatigue.case import Case, given_case
 from fatigue.errors import NumericalError, Problem
 from fatigue.pipeline.solve.body import Body, read_body
-from fatigue.pipeline.solve.rated_curves import RatedCurve
+from fatigue.pipeline.solve.rated.rated_curves import RatedCurve
 from fatigue.pipeline.solve.stations import Stations, joined, stations_of
 from fatigue.pipeline.solve.weld_groups import WeldGroups, forces_of_block, one_group
 from fatigue.readers.neutral.body.modes import Modes

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.pipeline.solve.modal_stress import ModalStress
-from fatigue.pipeline.solve.rated_curves import RatedCurve
+from fatigue.pipeline.solve.rated.rated_curves import RatedCurve
 from fatigue.readers.neutral.body.welds import Weld
 from fatigue.weld.line import LineStack, line_of_node
 from fatigue.weld.line_geometry import arc_length

@@ -12,7 +12,7 @@ from fatigue.life.curves import SHIPPED
 from fatigue.life.endurance.haigh import EnduranceLine
 from fatigue.life.mission import life_km
 from fatigue.pipeline.checks.rows import NOT_ASSESSED, NOWHERE, NUMBERS, PLACES, TEXTS, CheckRows
-from fatigue.pipeline.solve.rated_curves import RatedCurve
+from fatigue.pipeline.solve.rated.rated_curves import RatedCurve
 
 NO_LINES: Mapping[str, EnduranceLine] = MappingProxyType({})
 WEAKER = ("verified", SHIPPED, "user", "unverified")  # what the numbers of a curve rest on, the weakest last

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from fatigue.life.rule import bending_ratio, cycle_damage, equivalent_range
 from fatigue.pipeline.count.worst import WorstPoint
 from fatigue.pipeline.solve.model import Model
-from fatigue.pipeline.solve.rated_curves import RatedCurve
+from fatigue.pipeline.solve.rated.rated_curves import RatedCurve
 from fatigue.pipeline.tables.rows import FACES
 from fatigue.results import coded
 

@@ -16,7 +16,7 @@ from fatigue.pipeline.mission.gravity import HeldGravity
 from fatigue.pipeline.multiaxial.method import DECIDING
 from fatigue.pipeline.run.work import Work
 from fatigue.pipeline.solve.body import Body
-from fatigue.pipeline.solve.rated_curves import RatedCurve
+from fatigue.pipeline.solve.rated.rated_curves import RatedCurve
 from fatigue.pipeline.tables.unit_loads import load_records
 from fatigue.results import software_versions, way_to_case
 

@@ -15,7 +15,7 @@ from fatigue.decide.whatif.verdicts import weld_table
 from fatigue.life.bounds.histogram import Enclosed
 from fatigue.life.curves import catalogue, damage_law
 from fatigue.life.rule import CycleRule
-from fatigue.pipeline.solve.rated_curves import RatedCurve
+from fatigue.pipeline.solve.rated.rated_curves import RatedCurve
 
 PER_PASS = 1e-7 * np.array([[3.0, 1.0], [2.0, 2.0], [0.1, 0.2], [0.0, 0.0], [0.5, 0.1], [4.0, 9.0]])
 WEIGHTS = np.array([0.4, 0.2])

@@ -10,7 +10,7 @@ from fatigue.case import load_case
 from fatigue.errors import FatigueError
 from fatigue.life.mission import Plan
 from fatigue.pipeline.solve.body import Body, read_body
-from fatigue.pipeline.solve.rated_curves import AskedCurve, RatedCurve, curves_of_case, rated_curves
+from fatigue.pipeline.solve.rated.rated_curves import AskedCurve, RatedCurve, curves_of_case, rated_curves
 from tests.small_case import small_case
 
 OWN = """

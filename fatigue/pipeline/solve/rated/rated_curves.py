@@ -14,7 +14,7 @@ from fatigue.life.curves import DamageLaw, Extension, Quantity, SNCurve, Surviva
 from fatigue.life.curves import survival_level as level_of
 from fatigue.life.mission import Plan
 from fatigue.life.rule import CycleRule, size_exponent, size_factor
-from fatigue.pipeline.solve.known_curves import curves_of_case
+from fatigue.pipeline.solve.rated.known_curves import curves_of_case
 from fatigue.readers.neutral.body.strength_factors import StrengthFactor, on_limit, on_range
 from fatigue.readers.neutral.body.welds import Weld
 from fatigue.shown import few

@@ -7,7 +7,7 @@ import pytest
 from fatigue.case import load_case
 from fatigue.errors import FatigueError
 from fatigue.life.curves import SNCurve, catalogue
-from fatigue.pipeline.solve.known_curves import curves_of_case
+from fatigue.pipeline.solve.rated.known_curves import curves_of_case
 from tests.small_case import small_case
 
 

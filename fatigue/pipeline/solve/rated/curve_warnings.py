@@ -7,7 +7,7 @@ import numpy as np
 from fatigue.case import Case
 from fatigue.errors import Problem
 from fatigue.life.allowances import bending_thickness
-from fatigue.pipeline.solve.rated_curves import RatedCurve
+from fatigue.pipeline.solve.rated.rated_curves import RatedCurve
 from fatigue.readers.neutral.body.welds import Weld
 from fatigue.shown import few
 from fatigue.weld.line import LineStack

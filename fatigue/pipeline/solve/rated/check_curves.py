@@ -6,7 +6,7 @@ from typing import cast
 from fatigue.case import Case
 from fatigue.errors import Problem
 from fatigue.life.curves import Quantity
-from fatigue.pipeline.solve.rated_curves import AskedCurve, RatedCurve, Use
+from fatigue.pipeline.solve.rated.rated_curves import AskedCurve, RatedCurve, Use
 from fatigue.readers.neutral.body.throats import WeldThroat
 from fatigue.readers.neutral.points.stress_points import CHECK_OF, StressPoints
 
