@@ -5,9 +5,9 @@ Run it where Abaqus is, on the database of a *FREQUENCY step that has asked for 
     abaqus python abaqus_export.py JOB.odb OUT.txt [WELD_ELEMENTS]
 
 WELD_ELEMENTS is an element set of the assembly or of its instances; without it the forces of all elements that have
-them are written. The text is for `fatigue convert --forces OUT.txt --mesh OUT.txt`. Forces are written as Abaqus has them: NFORC is the force
-of the element on the node, in global axes. Steps of one frame without frequency (static perturbation steps) are written
-beside the modes: interface modes, or loads.
+them are written. The text is for `fatigue convert --forces OUT.txt --mesh OUT.txt`. Forces are written as Abaqus has
+them: NFORC is the force of the element on the node, in global axes. The last frame of each static step with NFORC is
+written beside the modes: interface modes, or loads.
 
 Runs under the Python 2.7 and 3 of Abaqus; needs nothing but Abaqus.
 """
@@ -110,7 +110,7 @@ def section_table(assembly, odb_sections, shift, measured):
                 unknown += own == 0.0 and fraction is not None
             if unknown:
                 doubts.append(
-                    "section %s has a thickness that varies: it is unknown at %d elements (no STH, or it varies over them)"
+                    "section %s has a thickness that varies: it is unknown at %d elements (no STH, or uneven)"
                     % (assigned.sectionName, unknown)
                 )
     return table, of_element, doubts

@@ -33,6 +33,7 @@ BODY_FILES = (
     "weld_throats",
     "stress_points",
     "modal_stresses",
+    "weld_columns",
 )
 BASIS_FILES = (
     "participation",
@@ -72,6 +73,11 @@ class Body(Table):
     elements: Text | None = Field(
         default=None,
         description="the file of the elements' nodes and thickness, for the comparison with the welds and pictures",
+    )
+    weld_columns: Text | None = Field(
+        default=None,
+        description="the file of the nodes through the thickness at each station of welds of solid elements (weld, "
+        "order, node), with nodes",
     )
     weld_throats: Text | None = Field(default=None, description="the file of the throats of fillet welds")
     stress_points: Text | None = Field(

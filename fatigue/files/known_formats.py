@@ -12,9 +12,11 @@ _OP2 = "Request GPFORCE(PLOT) with PARAM,POST,-1 and give the .op2"
 _CHANNELS = "Export time and modal coordinates as CSV"
 AS_CSV = "Save the sheet as CSV (UTF-8)"
 UNPACK = "Unpack it and give the file inside"
-_ANSYS_FORCES = "Write its forces with the macro that `fatigue request ansys` writes, and give its text to --forces, the .cdb to --mesh"
+_ANSYS_FORCES = (
+    "Export it with the macro that `fatigue request ansys` writes: the text is for --forces, the .cdb for --mesh"
+)
 _ABAQUS_FORCES = (
-    "Export it with abaqus_export.py (fatigue example DIR --requests), and give the text to --forces and --mesh"
+    "Export it with abaqus_export.py (fatigue request abaqus -o FILE), and give the text to --forces and --mesh"
 )
 _PANDAS = "Turn it into Parquet: python -c \"import pandas as p; p.{0}('FILE').to_parquet('FILE.parquet')\""
 
@@ -221,10 +223,12 @@ NPZ = Known("a NumPy archive (.npz)", _TABLE, zipped=r".*\.npy$")  # [V]
 MATLAB = Known(
     "a MATLAB file",
     _TABLE,
-    within=rb"(?s)^(?:MATLAB 5\.0 MAT-file|[\0-\x34]\0\0\0.{8}[\0\x01]\0\0\0[\x02-\x40]\0\0\0[A-Za-z]\w*\0)",
+    within=rb"(?s)^(?:.{124}(?:\0\x01IM|\x01\0MI)"
+    rb"|[\0-\x34]\0\0\0.{8}[\0\x01]\0\0\0[\x02-\x40]\0\0\0[A-Za-z]\w*\0"
+    rb"|\0\0(?:\x03[\xe8-\xff]|\x04[\0-\x1c]).{8}\0\0\0[\0\x01]\0\0\0[\x02-\x40][A-Za-z]\w*\0)",
     has_zeros=True,
-)  # [V] of version 5 to 7; of version 4, little end
-MATLAB_73 = Known("a MATLAB 7.3 file", _TABLE, (b"MATLAB 7.3 MAT-file",))  # [V]
+)  # [V] of version 5 to 7, whose first 116 bytes are any text; of version 4, little and big end
+MATLAB_73 = Known("a MATLAB 7.3 file", _TABLE, (b"\0\x02IM", b"\x02\0MI"), at=124)  # [V]
 WORKBOOK = Known("an Excel workbook (.xlsx)", f"{AS_CSV}, or: fatigue channels FILE -o TABLE.csv", zipped=r"xl/")  # [V]
 
 OWN = (

@@ -132,8 +132,8 @@ def side_forces(
     """
     side = forces.of(elements)
     line_nodes = np.concatenate([part.node for part in parts])
-    refuse(DataError, _gaps(np.setdiff1d(elements, side.element), np.setdiff1d(line_nodes, side.node), where))
-    element, node, force = _table(side.rows(np.isin(side.node, line_nodes)), modes, where, name)
+    refuse(DataError, gaps(np.setdiff1d(elements, side.element), np.setdiff1d(line_nodes, side.node), where))
+    element, node, force = corner_table(side.rows(np.isin(side.node, line_nodes)), modes, where, name)
     summed = (_shares(parts, element, node, side) @ force.reshape(node.size, -1)).reshape(-1, modes.size, 6)
     return np.split(summed, np.cumsum([part.node.size for part in parts])[:-1])
 
@@ -178,7 +178,7 @@ def _coordinates(forces: ElementForces, xyz: Mapping[int, NDArray[np.float64]]) 
     return np.array([xyz[node] for node in nodes.tolist()])[at]
 
 
-def _gaps(absent: NDArray[np.int64], bare: NDArray[np.int64], where: str) -> Iterator[Problem]:
+def gaps(absent: NDArray[np.int64], bare: NDArray[np.int64], where: str) -> Iterator[Problem]:
     """Problems of elements without forces and of line nodes without elements."""
     if absent.size:
         what = f"element {absent[0]}{_more(absent.size)} of the assessed side has no forces"
@@ -188,7 +188,7 @@ def _gaps(absent: NDArray[np.int64], bare: NDArray[np.int64], where: str) -> Ite
         yield Problem("bare_node", where, what, "Complete weld_elements")
 
 
-def _table(
+def corner_table(
     rows: ElementForces, modes: NDArray[np.int64], where: str, name: Callable[[int], str]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]:
     """Arrange rows by element corner, (k,) elements and (k,) nodes, and mode, (k, m, 6); refuse gaps and repeats."""

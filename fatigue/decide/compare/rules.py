@@ -167,7 +167,7 @@ def _read(of: Finished) -> dict[str, tuple[str, str]]:
     return {key: (name, known[name]) for key, name in there.items() if name in known}
 
 
-_OF_STRESS = ("modes", "weld_nodes", "nodal_forces", "element_forces", "weld_elements")
+_OF_STRESS = ("modes", "weld_nodes", "nodal_forces", "element_forces", "weld_elements", "weld_columns")
 
 
 def _named(rule: str, event: str) -> str:

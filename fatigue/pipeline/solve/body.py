@@ -5,6 +5,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from fatigue.case import Case, case_warnings, check_files
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.files.look_alike import name_warnings
@@ -18,9 +21,11 @@ from fatigue.pipeline.solve.rated_curves import (
     curves_of_case,
     rated_curves,
 )
+from fatigue.pipeline.solve.solids import NO_SOLIDS, Solids, registered_solids
 from fatigue.readers.convert.folder import RECORD, read_record
 from fatigue.readers.neutral.against_mesh import TableNames, mesh_warnings
 from fatigue.readers.neutral.body.classes import class_warnings
+from fatigue.readers.neutral.body.columns import read_columns
 from fatigue.readers.neutral.body.coordinates import Coordinates
 from fatigue.readers.neutral.body.lines import checked_lines, read_lines
 from fatigue.readers.neutral.body.mesh import Mesh, read_mesh
@@ -49,7 +54,7 @@ class Body:
     ``register`` tells which are which, ``joints`` where lines of one name were joined. ``lines`` has one line per weld,
     in the order of ``welds`` and not yet split at kinks; ``curves`` holds every curve a weld asks for; ``throats`` are
     those of the welds that have one, by their names; ``compared`` static load cases and endurance lines; ``points`` are
-    the stress points, None without them; ``mesh`` serves the balance check and pictures; ``conversion`` is what
+    the stress points, None without them; ``solids`` the welds of solid elements; ``mesh`` serves the balance check and pictures; ``conversion`` is what
     ``fatigue convert`` recorded, its audit included; ``warnings`` are about these files.
     """
 
@@ -68,6 +73,12 @@ class Body:
     strict: bool
     warnings: tuple[Problem, ...]
     points: StressPoints | None = None
+    solids: Solids = NO_SOLIDS
+
+    @property
+    def nodes_of_forces(self) -> NDArray[np.int64]:
+        """Position of each line's first node among all that forces are given at, (k + 1,): blocks are cut by it."""
+        return self.solids.begin(self.lines)
 
     @property
     def coordinates(self) -> Coordinates:
@@ -126,7 +137,7 @@ def read_body(case: Case, *, strict: bool) -> Body:
     if files.nodes:
         elements = case.resolve(files.elements) if files.elements else None
         mesh, of_mesh = read_mesh(case.resolve(files.nodes), elements, strict=strict)
-    welds, lines, joints, of_lines = _lines_on_disk(case, in_tables, plan, curves, mesh, strict=strict)
+    welds, lines, joints, solids, of_lines = _lines_on_disk(case, in_tables, plan, curves, mesh, strict=strict)
     warnings += of_compared + of_lines + of_mesh
     if throats:
         check_throats(throats, lines, str(files.weld_throats))
@@ -152,6 +163,7 @@ def read_body(case: Case, *, strict: bool) -> Body:
         strict=strict,
         warnings=tuple(warnings),
         points=points,
+        solids=solids,
     )
 
 
@@ -188,10 +200,15 @@ def _lines_on_disk(
     mesh: Mesh | None,
     *,
     strict: bool,
-) -> tuple[tuple[Weld, ...], LineFile, Joints, list[Problem]]:
+) -> tuple[tuple[Weld, ...], LineFile, Joints, Solids, list[Problem]]:
     """Lines of all welds to assess, read and checked, also by the mesh; only here they are in memory together."""
     path = case.resolve(case.body.weld_nodes)
     lines, warnings = read_lines(path, in_tables, plan.names, strict=strict)
+    solids = NO_SOLIDS
+    if case.body.weld_columns is not None:
+        of_tables, of_columns = read_columns(case.resolve(case.body.weld_columns), lines, mesh, strict=strict)
+        solids = registered_solids(of_tables, plan)
+        warnings += of_columns
     welds: tuple[Weld, ...] = plan.welds
     joints: Joints = {}
     if plan.file:
@@ -207,8 +224,9 @@ def _lines_on_disk(
     if mesh is not None:
         names = TableNames(path.name, Path(case.body.nodes or "").name, Path(case.body.elements or "").name)
         knows_sides = case.body.weld_elements is not None
-        warnings += mesh_warnings(lines, mesh, names, plan.confirmed, knows_sides=knows_sides)
-    return welds, line_file(lines), joints, warnings
+        shells = solids.others(lines)
+        warnings += mesh_warnings(shells, mesh, names, plan.confirmed, knows_sides=knows_sides)
+    return welds, line_file(lines), joints, solids, warnings
 
 
 def register_file(case: Case) -> Path | None:

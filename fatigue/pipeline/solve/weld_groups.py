@@ -20,7 +20,6 @@ from fatigue.pipeline.solve.load_forces import (
     with_unit_loads,
 )
 from fatigue.readers.neutral.against_mesh.sides import side_warnings
-from fatigue.readers.neutral.body.coordinates import Coordinates
 from fatigue.readers.neutral.body.modes import Modes
 from fatigue.readers.neutral.forces.by_group import ForcesByGroup
 from fatigue.readers.neutral.forces.element_forces import read_element_forces, read_weld_elements
@@ -32,6 +31,7 @@ from fatigue.side_by_side import in_order
 from fatigue.weld.element_forces import ElementForces, side_forces, together
 from fatigue.weld.line import LineStack, WeldLine, stacked
 from fatigue.weld.line_geometry import split_at_kinks
+from fatigue.weld.solid.folded import folded_side, held_moments
 
 GROUPS = 16  # that a body is cut into, so that threads have something to share,
 SMALLEST_GROUP, LARGEST_GROUP = 32, 3584  # of so many stations: memory is bounded, matrices stay efficient
@@ -87,7 +87,7 @@ def weld_groups(body: Body, scratch: Path) -> WeldGroups:
     ------
     DataError : a file of forces cannot be read, or element forces are out of balance
     """
-    last = body.lines.begin[1:] - 1
+    last = body.nodes_of_forces[1:] - 1
     group, place = np.divmod(last, min(LARGEST_GROUP, max(SMALLEST_GROUP, (int(last[-1]) + 1) // GROUPS)))
     return _open_groups(body, group, place // BLOCK, scratch)
 
@@ -124,15 +124,18 @@ def forces_of_block(groups: WeldGroups, number: int) -> tuple[LineStack, NDArray
     body, files = groups.body, groups.body.case.body
     lines = body.lines.lines(groups.blocks[number])
     if isinstance(groups.forces, SideForces):
-        parts, summed = _sums_of_sides(groups.forces, lines, body.coordinates)
-        return parts, summed, list(groups.forces.warnings) if number == 0 else []
+        parts, summed, warnings = _sums_of_sides(groups.forces, lines, body)
+        return parts, summed, [*(groups.forces.warnings if number == 0 else ()), *warnings]
     table = groups.forces.table(number)
+    loaded = body.solids.loaded(lines)
     forces, warnings = read_nodal_forces(
-        table, lines, body.modes, files.force_convention, files.ignore_modes, strict=body.strict
+        table, loaded, body.modes, files.force_convention, files.ignore_modes, strict=body.strict
     )
     if groups.loads:
-        forces, of_loads = with_unit_loads(groups.loads, number, lines, forces, files.force_convention, body)
+        forces, of_loads = with_unit_loads(groups.loads, number, loaded, forces, files.force_convention, body)
         warnings += of_loads
+    forces, of_solids = body.solids.on_lines(lines, forces, table.path.name)
+    warnings += of_solids
     of_file = OF_FILE if number else ()
     return lines, forces, [warning for warning in warnings if warning.code not in of_file]
 
@@ -142,6 +145,8 @@ def _are_regular(groups: WeldGroups, threads: int | None) -> bool:
     if isinstance(groups.forces, SideForces):
         return False
     body = groups.body
+    if body.solids:
+        return False
     check = groups.forces.regular_check(body.lines, body.modes, body.case.body.ignore_modes, strict=body.strict)
     if check is None:
         return False
@@ -155,15 +160,15 @@ def _check_block(groups: WeldGroups, number: int) -> None:
     """Check the forces of a block of a group; of element forces only the sums are left to be checked."""
     body, lines = groups.body, groups.body.lines.lines(groups.blocks[number])
     if isinstance(groups.forces, SideForces):
-        _sums_of_sides(groups.forces, lines, body.coordinates)
+        _sums_of_sides(groups.forces, lines, body)
     else:
-        ignored = body.case.body.ignore_modes
-        check_nodal_forces(groups.forces.table(number), lines, body.modes, ignored, strict=body.strict)
+        ignored, loaded = body.case.body.ignore_modes, body.solids.loaded(lines)
+        check_nodal_forces(groups.forces.table(number), loaded, body.modes, ignored, strict=body.strict)
 
 
 def _check_loads(groups: WeldGroups, number: int) -> None:
     """Check the nodal forces of unit loads of a block of a group."""
-    lines = groups.body.lines.lines(groups.blocks[number])
+    lines = groups.body.solids.loaded(groups.body.lines.lines(groups.blocks[number]))
     check_unit_loads(groups.loads, number, lines, strict=groups.body.strict)
 
 
@@ -203,12 +208,12 @@ def _side_forces(body: Body) -> SideForces:
     )
     weld_elements, needed = case.resolve(files.weld_elements), body.register.names
     of_tables, of_elements = read_weld_elements(weld_elements, body.in_tables, strict=body.strict, needed=needed)
-    sides = registered_sides(of_tables, forces, body.register, body.joints)
+    sides = registered_sides(of_tables, body.solids.seen_from_the_top(forces), body.register, body.joints)
     warnings += of_elements + checked_balance(path, _of_elastic_modes(forces, body.modes), body.mesh, body.coordinates)
     of_sides = forces.of(np.concatenate(list(sides.values())))
     if body.mesh is not None:
         lines_file = case.resolve(files.weld_nodes).name
-        warnings += side_warnings(body.lines, of_sides, sides, body.mesh, lines_file, weld_elements.name)
+        warnings += side_warnings(body.lines, of_sides, sides, body.mesh, lines_file, weld_elements.name, set(body.solids.welds))
     of_loads, about_loads = element_forces_of_loads(body, np.concatenate(list(sides.values())))
     if of_loads:
         of_sides, warnings = together([of_sides, *of_loads]), warnings + about_loads
@@ -216,18 +221,25 @@ def _side_forces(body: Body) -> SideForces:
 
 
 def _sums_of_sides(
-    sides: SideForces, lines: LineStack, coordinates: Coordinates
-) -> tuple[LineStack, NDArray[np.floating]]:
-    """Parts of lines between their kinks, and the element forces of the assessed side summed per part, (n, c, 6)."""
+    sides: SideForces, lines: LineStack, body: Body
+) -> tuple[LineStack, NDArray[np.floating], list[Problem]]:
+    """Parts of lines between their kinks, the forces of the assessed side summed per part, (n, c, 6), and doubts."""
     parts: list[WeldLine] = []
     summed: list[NDArray[np.float64]] = []
+    warnings: list[Problem] = []
+    coordinates = body.coordinates
     for line in lines:
         split = split_at_kinks(line)
         parts += split
         where = f"{sides.file}: weld {line.weld}"
-        elements = sides.elements[line.weld]
-        summed += side_forces(split, elements, sides.forces, coordinates.number, where, coordinates.name)
-    return stacked(parts), np.concatenate(summed)
+        elements, forces = sides.elements[line.weld], sides.forces
+        if (weld := body.solids.welds.get(line.weld)) is not None:
+            side = forces.of(elements)
+            forces = folded_side(line, weld, side, elements, coordinates.number, where, coordinates.name)
+            at_columns = side.force[np.isin(side.node, weld.columns.node)]
+            warnings += held_moments(at_columns, float(line.thickness.min()), where)
+        summed += side_forces(split, elements, forces, coordinates.number, where, coordinates.name)
+    return stacked(parts), np.concatenate(summed), warnings
 
 
 def _of_elastic_modes(forces: ElementForces, modes: Modes) -> ElementForces:

@@ -144,7 +144,7 @@ FORMATS = (
         place=7,
         reads={
             COORDINATES: Reader("histories.text.read_text_history", "a text table", "CSV, text"),
-            CHANNELS: Reader("channels.table.read_text_channels", "a text table", "CSV, text"),
+            CHANNELS: Reader("channels.tables.table.read_text_channels", "a text table", "CSV, text"),
         },
         belongs=" if it holds them",
     ),
@@ -198,7 +198,7 @@ FORMATS = (
         place=6,
         reads={
             COORDINATES: Reader("histories.text.read_parquet_history", ".parquet"),
-            CHANNELS: Reader("channels.table.read_parquet_channels", ".parquet"),
+            CHANNELS: Reader("channels.tables.table.read_parquet_channels", ".parquet"),
         },
         signature=PARQUET,
         belongs=", or, if it is a table of a case, to case.toml",
@@ -210,7 +210,7 @@ FORMATS = (
         place=5,
         reads={
             COORDINATES: Reader("histories.mcf.read_mcf", ".mcf", ".mcf"),
-            CHANNELS: Reader("channels.table.read_mcf_channels", ".mcf", ".mcf"),
+            CHANNELS: Reader("channels.tables.table.read_mcf_channels", ".mcf", ".mcf"),
         },
         looks_like="histories.mcf.is_mcf",
     ),
@@ -287,7 +287,7 @@ FORMATS = (
         WORKBOOK.name,
         ending=".xlsx",
         place=8,
-        reads={CHANNELS: Reader("channels.workbook.read_workbook", ".xlsx", ".xlsx")},
+        reads={CHANNELS: Reader("channels.tables.workbook.read_workbook", ".xlsx", ".xlsx")},
         signature=WORKBOOK,
         extra=Extra("python_calamine", "Excel input"),
     ),

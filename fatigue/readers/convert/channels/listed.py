@@ -1,6 +1,5 @@
 """What is in a recording of any format: groups, channels, units, rates, starts and gaps."""
 
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,6 +10,7 @@ import numpy as np
 from fatigue.errors import Problem, given_path
 from fatigue.readers.foreign.channels.group import ChannelGroup
 from fatigue.readers.foreign.read import read_channels, recognise
+from fatigue.readers.units.channel_names import channel
 
 STEP_TOLERANCE = 1e-3  # of a step, as for histories
 
@@ -88,7 +88,9 @@ class Recording:
                     f"; {len(one.gaps)} gap{'s' * (len(one.gaps) != 1)}, the first at {begin:.9g} s of {length:.6g} s"
                 )
             lines.append(f"{name}{count}, {time}")
-            lines += [f"  {_with_unit(channel, unit)}" for channel, unit in one.channels]
+            lines += [
+                f"  {name}" + (f" [{unit}]" if unit and not channel(name).unit else "") for name, unit in one.channels
+            ]
         return "\n".join([*lines, *(f"note   {warning}" for warning in self.warnings)])
 
 
@@ -120,11 +122,6 @@ def _listed(group: ChannelGroup) -> ListedGroup:
         step = float(np.median(steps))
         gaps = tuple((float(group.time[k]), float(steps[k])) for k in np.flatnonzero(steps > 1.5 * step))
     return ListedGroup(group.name, channels, group.samples, first, step, last - first, even, gaps, "")
-
-
-def _with_unit(name: str, unit: str) -> str:
-    """Name of a channel and its unit, once where the name has it already."""
-    return name if not unit or re.search(rf"[\[(]\s*{re.escape(unit)}\s*[\])]\s*\Z", name) else f"{name} [{unit}]"
 
 
 def _known(value: float) -> float | None:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from fatigue.errors import DataError, Problem
 from fatigue.files.naming import missing_foreign_file
+from fatigue.readers.text.encoding import marked_encoding
 
 _FIRST = re.compile(
     r"^\s*\*\s*(heading|node|element|part|assembly|include|preprint|solid section|shell section|nset|elset|material)\b",
@@ -83,7 +84,8 @@ def keywords(path: Path) -> tuple[list[Keyword], tuple[Path, ...]]:
 def _lines(path: Path, root: Path, included: list[Path], depth: int) -> Iterator[tuple[str, int, str]]:
     """Lines without comments and blanks; keyword lines that end in a comma are joined with the next."""
     try:
-        text = path.read_text("utf-8", errors="replace")
+        raw_bytes = path.read_bytes()
+        text = raw_bytes.decode(marked_encoding(raw_bytes[:4]), errors="replace")
     except (FileNotFoundError, IsADirectoryError):
         raise DataError(missing_foreign_file(path)) from None
     except OSError as error:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from fatigue.errors import DataError, Problem
 from fatigue.readers.foreign.ansys.blocks import Lines, fields_of, number, numbers, whole_numbers
 from fatigue.readers.foreign.ansys.elements import SECTIONED, SHELLS, SOLIDS, element_of
-from fatigue.readers.foreign.fe.model import FeModel, Section, Shell, Solid, shell_mesh, solid_mesh
+from fatigue.readers.foreign.fe.model import FeModel, Section, Shell, Solid, others_left_out, shell_mesh, solid_mesh
 
 _HEAD = re.compile(r"(?im)^(?:NBLOCK,|EBLOCK,|/PREP7|/COM,)")
 _REAL = 1_000_000_000  # added to the numbers of real constants, so that they are told from sections
@@ -84,9 +84,11 @@ def _nblock(archive: Archive, lines: Lines, words: list[str]) -> None:
     first = sum(column.is_whole for column in fields)
     if first < 1 or not all(column.is_whole for column in fields[:first]) or len(fields) < first + 3:
         raise lines.damaged("the format of NBLOCK is not whole numbers and then three or six others")
+    before = len(archive.nodes)
     while True:
         line = lines.next("NBLOCK")
         if line.strip() == "-1" or line.lstrip().upper().startswith("N,"):
+            _check_count(lines, words, len(archive.nodes) - before)
             return
         node = whole_numbers(lines, line[: fields[first - 1].end], fields[:first])[0]
         values = numbers(lines, line, fields)[first:] + [0.0] * 6
@@ -101,9 +103,11 @@ def _eblock(archive: Archive, lines: Lines, words: list[str]) -> None:
     """Elements: of SOLID blocks eleven numbers before the nodes, of others five."""
     fields = fields_of(lines)
     is_solid = len(words) > 2 and words[2].upper() == "SOLID"
+    before = len(archive.rows)
     while True:
         line = lines.next("EBLOCK")
         if line.strip() == "-1":
+            _check_count(lines, words, len(archive.rows) - before)
             return
         row = whole_numbers(lines, line, fields)
         if is_solid:
@@ -120,6 +124,12 @@ def _eblock(archive: Archive, lines: Lines, words: list[str]) -> None:
         if element < 1 or len(nodes) > count:
             raise lines.damaged(f"element {element} has {len(nodes)} nodes, and {count} are stated")
         archive.rows.append((kind, real, section, element, nodes))
+
+
+def _check_count(lines: Lines, words: list[str], found: int) -> None:
+    """Refuse a block that does not hold as many rows as its head states, where it does."""
+    if len(words) > 4 and words[4].isdigit() and 0 < int(words[4]) != found:
+        raise lines.damaged(f"{words[0]} states {words[4]} rows, and {found} stand there")
 
 
 def _et(archive: Archive, lines: Lines, words: list[str]) -> None:
@@ -245,7 +255,7 @@ def _model(source: str, archive: Archive) -> FeModel:
         unconfirmed_sections=unconfirmed,
         node_sets=sets,
         other_cards=dict(others),
-        warnings=warnings,
+        warnings=(*warnings, *others_left_out(str(source), others)),
         solids=solid_mesh(source, archive.nodes, solids, shells),
     )
 

@@ -61,7 +61,8 @@ def _shell(element: int, pid: int, nodes: Sequence[int], listed: int) -> Shell |
 
 def _brick(element: int, pid: int, nodes: Sequence[int], listed: int) -> Solid | None:
     """Hexahedron, or the prism or tetrahedron that its repeated corners make."""
-    places, mid_places = tuple(range(8)), _HEXA_MIDS
+    places: tuple[int, ...] = tuple(range(8))
+    mid_places: tuple[int, ...] = _HEXA_MIDS
     if nodes[2] == nodes[3]:
         is_tetra = len(set(nodes[4:8])) == 1
         places, mid_places = (_TETRA_CORNERS, _TETRA_MIDS) if is_tetra else (_PENTA_CORNERS, _PENTA_MIDS)

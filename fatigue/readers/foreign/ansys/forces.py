@@ -16,6 +16,8 @@ from fatigue.readers.foreign.fe.static_case import Heading, heading
 
 _MODAL = 1_000_000  # subcase of the modes, beside the numbers of static load cases
 _ANEW = "Write it again with the macro (fatigue request ansys), or copy it whole"
+_CORNERS = {4: 4, 10: 4, 8: 8, 20: 8}
+"""Of solids the macro lists the corners, which tell a brick from a prism."""
 _COLUMNS = {"mode": 3, "static": 1, "shape": 7, "forces": 8}
 
 
@@ -56,6 +58,7 @@ def read_ansys_forces(
             current = (_MODAL, number) if block.name == "mode" else (number, 0)
             if block.name == "mode":
                 frequency, mass = (float(value) for value in block.values[0, 1:])
+                mass = mass if mass > 0.0 else np.nan  # the macro was told that shapes are not normalised to mass
                 summary.append(Eigenvalue(_MODAL, number, frequency, mass, (2.0 * np.pi * frequency) ** 2))
             else:
                 headings[number] = heading("", block.words, "")
@@ -75,9 +78,9 @@ def _kinds(path: Path, block: Block) -> dict[int, str]:
     if not block.words.rstrip(".").isdigit():
         raise _damaged(path, block.line, f"{block.words[:20]!r} is no element routine")
     routine = int(block.words.rstrip("."))
-    nodes = SHELLS.get(routine) or SOLIDS.get(routine)
+    nodes = SHELLS.get(routine) or _CORNERS.get(SOLIDS.get(routine, 0))
     if nodes is not None and block.values.shape[1] != 2 + nodes:
-        what = f"elements {routine} have {nodes} nodes, and {block.values.shape[1] - 2} here"
+        what = f"elements {routine} have {nodes} nodes in the text, and {block.values.shape[1] - 2} here"
         raise _damaged(path, block.line, what)
     found = {}
     for element, row in zip(_ids(path, block, 0).tolist(), _whole(path, block).tolist(), strict=True):

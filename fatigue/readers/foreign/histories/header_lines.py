@@ -21,6 +21,7 @@ _LISTED = re.compile(
     r"([\"'$.]*[^\W\d].*?)\s*\Z",
     re.IGNORECASE,
 )
+_LETTERED = re.compile(r"\s*([A-Z]{1,2})(?:\s*[:=.)\t]|\s{2,})\s*([\"'$.]*[^\W\d].*?)\s*\Z")
 _BRACKETED = re.compile(r"\[[^\]]*\]|\([^)]*\)|<[^>]*>|\{[^}]*\}")
 _FREE_LABEL = re.compile(
     r"\W*(samples|channels|points|[xy]0|delta_?[xt]|[xy]_dimension|x_columns|date|time_pref|separator|operator)\W*\Z",
@@ -181,12 +182,14 @@ def _is_lone_time_unit(line: str) -> bool:
 
 
 def listed_names(path: Path, head: Sequence[str], width: int) -> tuple[HeaderRow | None, Collection[int]]:
-    """Names in a list of channels, one a line and numbered; it has to have as many as there are columns.
+    """Names in a list of channels, one a line, numbered or lettered; it has to have as many as there are columns.
 
     Returns
     -------
     the names as a row, None if there is no list, and the lines it takes
     """
+    if lettered := _lettered_names(head, width):
+        return lettered
     found = [(k + 1, int(m[1]), m[2]) for k, line in enumerate(head) if (m := _LISTED.match(line))]
     for first, (line, number, _) in enumerate(found):
         listed = [f for k, f in enumerate(found[first:]) if f[:2] == (line + k, number + k)]
@@ -201,3 +204,21 @@ def listed_names(path: Path, head: Sequence[str], width: int) -> tuple[HeaderRow
             raise DataError(Problem("column_count", f"{path}, line {line}", what, "Export again, or remove the list"))
         return HeaderRow(line, tuple(names), "names"), range(line, line + len(listed))
     return None, ()
+
+
+def _lettered_names(head: Sequence[str], width: int) -> tuple[HeaderRow, Collection[int]] | None:
+    """Names in a legend of letters, one a line: ``A: Time (sec)``; a row of these letters alone belongs to it."""
+    letters = [_letters(k) for k in range(width)]
+    for first in range(len(head) - width + 1):
+        found = [_LETTERED.match(line) for line in head[first : first + width]]
+        if width < 2 or not all(found) or [m[1] for m in found if m] != letters:
+            continue
+        names = tuple(m[2].strip("\"' ") for m in found if m)
+        alone = [k + 1 for k, line in enumerate(head) if re.split(r"[\s,;]+", line.strip(" \t\"',;")) == letters]
+        return HeaderRow(first + 1, names, "names"), [*range(first + 1, first + width + 1), *alone]
+    return None
+
+
+def _letters(k: int) -> str:
+    """Letters of a column as spreadsheets count them: A to Z, AA to ZZ."""
+    return chr(65 + k) if k < 26 else _letters(k // 26 - 1) + chr(65 + k % 26)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from fatigue.verify.recount.anew.joined import put_together, side_of, with_thickness
 from fatigue.verify.recount.anew.line import CORNER_DEG, Line, RecountLineStress, edges, kinks, line_stress
+from fatigue.verify.recount.anew.solid import Column, about, at_stations, solid_columns
 from fatigue.verify.recount.inputs.case import RecountInputs, column, flags
 from fatigue.verify.recount.inputs.coordinates import RecountCoordinates, forces_where
 from fatigue.verify.recount.inputs.register import WeldEntry
@@ -111,12 +112,17 @@ def _with_nodal_forces(
 ) -> Iterator[RecountLineStress]:
     """Stress of lines whose forces are summed already; a kink is then no reason to split."""
     source = {line.weld: inputs.register.welds[line.weld].sources[0] for line in lines}
+    solid = solid_columns(inputs, list(source.values()))
     frame = forces_where(inputs, coordinates, "nodal_forces", "weld", list(source.values()))
     by_weld = dict(tuple(frame.groupby("weld")))
     for line in lines:
         rows = by_weld[source[line.weld]].set_index(["node", "at"])
-        wanted = pd.MultiIndex.from_product([line.node, range(len(coordinates))])
-        forces = rows.loc[wanted, FORCE_COLUMNS].to_numpy(dtype=float).reshape(len(line.node), len(coordinates), 6)
+        columns = solid.get(source[line.weld])
+        nodes = line.node.tolist() if columns is None else [node for station in line.node for node in columns[station]]
+        wanted = pd.MultiIndex.from_product([nodes, range(len(coordinates))])
+        forces = rows.loc[wanted, FORCE_COLUMNS].to_numpy(dtype=float).reshape(len(nodes), len(coordinates), 6)
+        if columns is not None:
+            forces = _column_sums(line, columns, dict(zip(nodes, forces, strict=True)))
         yield line_stress(line, forces * coordinates.force_factor[:, None])
 
 
@@ -130,20 +136,46 @@ def _with_element_forces(
     of_lines = dict(tuple(read_rows_where(inputs.path("weld_nodes"), "weld", sources).groupby("weld")))
     elements = sides["element"].unique().tolist()
     frame = forces_where(inputs, coordinates, "element_forces", "element", elements).sort_values("at")
+    solid = solid_columns(inputs, sources)
     for line in lines:
         entry = entries[line.weld]
         own = [set(sides.loc[sides["weld"] == source, "element"].tolist()) for source in entry.sources]
         rows = frame[frame["element"].isin(set().union(*own))]
+        columns = {at: nodes for source in entry.sources for at, nodes in solid.get(source, {}).items()}
         if len(own) > 1:
-            nodes = {element: set(some) for element, some in rows.groupby("element")["node"]}
+            seen = at_stations(rows, columns)
+            nodes = {element: set(some) for element, some in seen.groupby("element")["node"]}
             to_join = _source_lines(entry, of_lines)
             rows = rows[rows["element"].isin(side_of(own, to_join, put_together(to_join)[1], nodes))]
         corners: Corners = {
             key: group[FORCE_COLUMNS].to_numpy(dtype=float) * coordinates.force_factor[:, None]
             for key, group in rows.groupby(["element", "node"])
         }
-        for part, forces in _summed(split(line), corners):
+        for part, forces in _summed(split(line), _at_line(line, columns, corners) if columns else corners):
             yield line_stress(part, forces)
+
+
+def _column_sums(line: Line, columns: Mapping[int, Column], forces: Mapping[int, Floats]) -> Floats:
+    """Force and moment about mid-thickness at each station, (n, m, 6), of the forces at the nodes of its column."""
+    sums = []
+    for mid, station in zip(line.xyz, line.node.tolist(), strict=True):
+        sums.append(sum(about(mid, at, forces[node]) for node, at in columns[station].items()))
+    return np.array(sums)
+
+
+def _at_line(line: Line, columns: Mapping[int, Column], corners: Corners) -> Corners:
+    """Element corners with those in one column put together at its station, moments about mid-thickness."""
+    place = {node: (station, at) for station, nodes in columns.items() for node, at in nodes.items()}
+    mid = dict(zip(line.node.tolist(), line.xyz, strict=True))
+    found: Corners = {}
+    for (element, node), forces in corners.items():
+        if node in place:
+            station, at = place[node]
+            key = (element, station)
+            found[key] = found.get(key, np.zeros_like(forces)) + about(mid[station], at, forces)
+        else:
+            found[element, node] = forces
+    return found
 
 
 def split(line: Line) -> list[Line]:

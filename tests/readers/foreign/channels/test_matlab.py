@@ -107,9 +107,9 @@ def test_the_first_column_is_time_if_it_rises_evenly(write):
 @pytest.mark.parametrize(
     ("variables", "code", "said"),
     [
-        ({"t": T, "q": np.ones((200, 200))}, "ambiguous", "200 rows and as many columns"),
+        ({"t": T, "q": np.ones((200, 200))}, "ambiguous", "200 rows and 200 columns"),
         ({"t": T, "q": Q + 1j}, "complex", "complex"),
-        ({"t": T, "time": 2 * T, "q": Q}, "several_times", "is time, too, and differs"),
+        ({"t": T, "time": 2 * T, "q": Q}, "several_times", "is time, too, as long, and differs"),
         ({"t": T}, "no_channels", "no array in it is a channel"),
         ({"t": T, "q": np.where(Q[5, 1] == Q, np.nan, Q)}, "not_a_number", "sample 6"),
     ],

@@ -51,11 +51,13 @@ def test_velocities_and_extra_points_are_no_coordinates(tmp_path):
 
 
 def test_subcases_are_groups(tmp_path):
-    """On one time base every mode would be claimed twice, which is refused where modes are joined."""
+    """Each an event: together they would claim every mode twice, and are refused with the way to one of them."""
     (tmp_path / "run.pch").write_text(by_time(1) + by_time(2, q=2 * Q))
     first, second = read_channels(tmp_path / "run.pch")
     assert (first.name, second.name) == ("subcase 1", "subcase 2")
     np.testing.assert_allclose(second.values([0]), 2 * Q[:1], rtol=1e-6)
+    with pytest.raises(DataError, match=r"'q_1' is in groups 'subcase 1' and 'subcase 2'.*--group 'subcase 2' -o"):
+        read_coordinates(tmp_path / "run.pch", None, None)
 
 
 @pytest.mark.parametrize(
