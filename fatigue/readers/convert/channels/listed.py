@@ -1,6 +1,5 @@
 """What is in a recording of any format: groups, channels, units, rates, starts and gaps."""
 
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -120,11 +119,6 @@ def _listed(group: ChannelGroup) -> ListedGroup:
         step = float(np.median(steps))
         gaps = tuple((float(group.time[k]), float(steps[k])) for k in np.flatnonzero(steps > 1.5 * step))
     return ListedGroup(group.name, channels, group.samples, first, step, last - first, even, gaps, "")
-
-
-def _with_unit(name: str, unit: str) -> str:
-    """Name of a channel and its unit, once where the name has it already."""
-    return name if not unit or re.search(rf"[\[(]\s*{re.escape(unit)}\s*[\])]\s*\Z", name) else f"{name} [{unit}]"
 
 
 def _known(value: float) -> float | None:

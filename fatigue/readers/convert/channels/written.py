@@ -143,25 +143,18 @@ def _renamed(asked: str, there: Collection[str]) -> tuple[str, str]:
 
 
 def _chosen(path: Path, groups: Sequence[ChannelGroup], group: str | None, channels: Sequence[str]) -> ChannelGroup:
-    """The group that was named, or the only one that can be meant."""
-    names = ", ".join(repr(one.name) for one in groups)
-    if group is not None:
-        named = [one for one in groups if one.name == group]
-        if not named:
-            raise DataError(Problem("no_group", str(path), f"there is no group {group!r}", f"Name one of {names}"))
-        if len(named) > 1:
-            what = f"{len(named)} groups are named {group!r}"
-            raise DataError(
-                Problem("many_groups", str(path), what, "Name channels of one by --channel, without --group")
-            )
-        found = named[0]
-    else:
-        having = [one for one in groups if set(channels) <= {c.name for c in one.channels}] if channels else []
-        timed = [one for one in (having or groups) if one.time is not None]
-        if len(timed) > 1:
-            remedy = "Name one by --group, or channels of one by --channel"
-            raise DataError(Problem("many_groups", str(path), f"its groups with time are {names}", remedy))
-        found = (timed or having or list(groups))[0]
+    """The group that is named, has the channels, and time: the only one that can be meant."""
+    names = ", ".join(dict.fromkeys(repr(one.name) for one in groups))
+    named = [one for one in groups if group is None or one.name == group]
+    if not named:
+        raise DataError(Problem("no_group", str(path), f"there is no group {group!r}", f"Name one of {names}"))
+    having = [one for one in named if set(channels) <= {c.name for c in one.channels}] or named
+    timed = [one for one in having if one.time is not None] or having[:1]
+    if len(timed) > 1:
+        what = f"its groups with time are {', '.join(repr(one.name) for one in timed)}"
+        remedy = "Name one by --group, or channels of one by --channel"
+        raise DataError(Problem("many_groups", str(path), what, remedy))
+    found = timed[0]
     if missing := sorted(set(channels) - {one.name for one in found.channels}):
         there = ", ".join(repr(one.name) for one in found.channels[:12])
         what = f"{found.called} has no channel {missing[0]!r}"

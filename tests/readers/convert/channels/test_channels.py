@@ -12,6 +12,7 @@ from fatigue.gauges.measured.channel_file import Channel
 from fatigue.gauges.measured.record_files import open_records
 from fatigue.readers.convert.channels.listed import list_channels
 from fatigue.readers.convert.channels.written import write_channels
+from fatigue.readers.foreign.channels.group import ChannelGroup, RecordedChannel
 from fatigue.readers.neutral.event.channel_file import read_channel
 from tests.command_line import fatigue as run
 from tests.readers.foreign.channels.rpc_writer import write_rpc
@@ -195,5 +196,19 @@ def test_columns_without_numbers_are_told(tmp_path):
     frame = pd.DataFrame({"time_s": T, "a": VALUES[0], "who": "x"})
     frame.to_parquet(tmp_path / "run.parquet")
     listed = list_channels(tmp_path / "run.parquet")
-    assert [problem.code for problem in listed.warnings] == ["no_numbers"]
+    assert [problem.code for problem in listed.warnings] == ["columns_left_out"]
     assert "'who'" in listed.as_text()
+
+
+def test_groups_of_one_name_are_told_apart_by_their_channels(tmp_path, monkeypatch):
+    """As those of one device in an MDF file: the first is not taken for the other."""
+    time = {"fast": T, "slow": T[::4]}
+    groups = tuple(
+        ChannelGroup("logger", (RecordedChannel(name),), t.size, t, lambda at, t=t: np.stack([t for _ in at]))
+        for name, t in time.items()
+    )
+    monkeypatch.setattr("fatigue.readers.convert.channels.written.read_channels", lambda path: groups)
+    out = tmp_path / "out.csv"
+    assert write_channels(tmp_path / "x", out, group="logger", channels=["slow"]).samples == 64
+    with pytest.raises(DataError, match="its groups with time are 'logger', 'logger'"):
+        write_channels(tmp_path / "x", out, group="logger", force=True)

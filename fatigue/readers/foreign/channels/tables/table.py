@@ -62,7 +62,7 @@ def read_parquet_channels(path: Path) -> tuple[ChannelGroup, ...]:
     rest = [name for k, name in enumerate(opened.names) if k not in numbers]
     what = f"columns that hold no numbers are left out: {', '.join(map(repr, rest[:8]))}"
     remedy = "Write them as numbers if they are wanted, times in seconds"
-    warnings = (Problem("no_numbers", str(path), what, remedy),) if rest else ()
+    warnings = (Problem("columns_left_out", str(path), what, remedy),) if rest else ()
     return (with_own_time(ChannelGroup("", named, opened.rows, None, values, _NO_TIME, warnings)),)
 
 
