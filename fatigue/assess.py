@@ -29,6 +29,7 @@ from fatigue.pipeline.mission.counted import event_counts, listed
 from fatigue.pipeline.mission.gravity import gravity_audit
 from fatigue.pipeline.mission.offsets import MeanLevel, mean_level
 from fatigue.pipeline.mission.plan import mission_plan
+from fatigue.pipeline.mission.precision import Precision
 from fatigue.pipeline.multiaxial.method import DECIDING
 from fatigue.pipeline.run.checkpoint import Checkpoint
 from fatigue.pipeline.run.inputs import with_inputs
@@ -44,7 +45,6 @@ from fatigue.pipeline.tables.tally import Progress, Tally, body_warnings
 from fatigue.pipeline.tables.written import write_tables
 from fatigue.readers.neutral.spare_memory import give_back
 from fatigue.report.files.vtp import write_vtp
-from fatigue.report.page import write_report
 from fatigue.results import (
     PAGE,
     PICTURE,
@@ -89,6 +89,7 @@ def assess(
     share: float | None = None,
     proves_worst: bool = True,
     histogram: HistogramPoints = "worst",
+    precision: Precision = "auto",
     strict: bool = False,
     require_verified: bool = False,
     force: bool = False,
@@ -111,6 +112,8 @@ def assess(
         point with the largest estimate counted
     histogram : of which counted points ``histogram.parquet`` has the ranges: ``worst``, those that are the worst of
         their weld or use up a tenth of the damage limit; ``all``; ``none``, and there is no such table
+    precision : of counting: ``auto``, single precision for jobs of more than 3e7 stress samples, within 1e-6 of the
+        damage; ``double`` for all
     strict : take unknown columns in the tables for errors
     require_verified : refuse a case that rests on an S-N curve of the status ``unverified``
     force : replace the result of another case, and files of these names that fatigue did not write
@@ -125,7 +128,7 @@ def assess(
     CaseError, DataError : the case or its files are wrong, or an argument makes no sense; nothing has been written then
     NumericalError : a computation lost its footing
     """
-    refuse(CaseError, _senseless(threads, share, executor, histogram))
+    refuse(CaseError, _senseless(threads, share, executor, histogram, precision))
     case, folder = given_case(case), given_path(folder, "folder")
     refuse(CaseError, _screened_shear(case, share))
     settle_folder(folder, no_lock=no_lock)
@@ -135,7 +138,7 @@ def assess(
     (body, plan, record_warnings), inputs = with_inputs(
         case, partial(read_case, case, threads, strict=strict, require_verified=require_verified)
     )
-    options = ScreeningOptions(share, proves_worst, histogram)
+    options = ScreeningOptions(share, proves_worst, histogram, precision)
     key = key_of(inputs.register, options)
 
     # another run may have been there meanwhile
@@ -149,7 +152,9 @@ def assess(
             log.info("assessing '%s': %d welds, %d events", case.path.name, len(body.welds), len(plan.passes))
             for line in listed(event_counts(case, plan)):
                 log.info("event %s", line)
-            size = job_size(body, plan, share=share, threads=threads, report=report, histogram=histogram)
+            size = job_size(
+                body, plan, share=share, threads=threads, report=report, histogram=histogram, precision=precision
+            )
             expected = foretold(size, folder)
             stage("preparing the records of the events (%d); %s expected", len(plan.passes), expected)
             work = open_work(groups, plan, options, state.folder, threads)
@@ -198,7 +203,9 @@ def levels_of(body: Body, work: Work) -> list[MeanLevel]:
     return [mean_level(body, event, load.mean) for event, load in zip(body.case.mission.event, work.loads, strict=True)]
 
 
-def _senseless(threads: object, share: object, executor: object, histogram: object) -> Iterator[Problem]:
+def _senseless(
+    threads: object, share: object, executor: object, histogram: object, precision: object
+) -> Iterator[Problem]:
     """Arguments that make no sense."""
     if threads is not None and not (isinstance(threads, Integral) and int(threads) >= 1):
         yield Problem("argument", "threads", f"{threads!r} is no number of threads", "Give a whole number from 1 on")
@@ -207,10 +214,12 @@ def _senseless(threads: object, share: object, executor: object, histogram: obje
     if executor is not None and not callable(getattr(executor, "submit", None)):
         what = f"{type(executor).__name__} is no executor"
         yield Problem("argument", "executor", what, "Give a concurrent.futures.Executor")
-    known = get_args(HistogramPoints)
-    if not (isinstance(histogram, str) and histogram in known):
-        what, remedy = f"{histogram!r} are no points to keep", f"Give one of {', '.join(map(repr, known))}"
-        yield Problem("argument", "histogram", what, remedy)
+    for name, given, known, what in (
+        ("histogram", histogram, get_args(HistogramPoints), "are no points to keep"),
+        ("precision", precision, get_args(Precision), "is no precision of counting"),
+    ):
+        if not (isinstance(given, str) and given in known):
+            yield Problem("argument", name, f"{given!r} {what}", f"Give one of {', '.join(map(repr, known))}")
 
 
 def _screened_shear(case: Case, share: float | None) -> Iterator[Problem]:
@@ -252,6 +261,8 @@ def write_records(
 
 def write_page_and_picture(folder: Path, case: Case, verification: Verification) -> list[Path]:
     """Write page and picture beside the tables of a result that is not published yet, and return their paths."""
+    from fatigue.report.page import write_report  # noqa: PLC0415 - its figures take a while to load, tables need none
+
     checks = verification() if callable(verification) else verification
     stage("writing %s and %s", PAGE, PICTURE)
     return [write_vtp(folder, folder), write_report(folder, case.path, checks, folder)]

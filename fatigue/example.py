@@ -31,15 +31,23 @@ def write_templates(folder: Path | str, *, force: bool = False) -> list[Path]:
     return [folder / name for name in _copy(_shipped("templates"), folder, force=force)]
 
 
-def write_requests(folder: Path | str, *, force: bool = False) -> list[Path]:
-    """Copy the scripts that export forces and mesh from other solvers into a folder; return them.
+_REQUESTS = {"abaqus": "abaqus_export.py", "ansys": "ansys_export.mac", "nastran": "nastran_cards.bdf"}
+
+
+def request_text(solver: str) -> str:
+    """Text that asks a solver, "abaqus", "ansys" or "nastran", for element nodal forces: a script, a macro, cards."""
+    return (_shipped("requests") / _REQUESTS[solver]).read_text("utf-8")
+
+
+def write_request(solver: str, file: Path) -> None:
+    """Write ``request_text`` to a file.
 
     Raises
     ------
-    DataError : as ``write_example``
+    DataError : the file cannot be written
     """
-    folder = given_path(folder, "folder")
-    return [folder / name for name in _copy(_shipped("requests"), folder, force=force)]
+    with refused_writing(file):
+        file.write_text(request_text(solver), "utf-8")
 
 
 def _copy(shipped: Path, folder: Path, *, force: bool) -> list[str]:

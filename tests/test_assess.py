@@ -242,7 +242,7 @@ def test_groups_of_welds_do_not_change_a_number(tmp_path, monkeypatch, suffix):
 
 def test_large_jobs_count_in_single_precision_and_say_so(tmp_path, small_result, monkeypatch):
     """Above the limit single precision counts; lives agree to 1e-6 and the record names the precision."""
-    monkeypatch.setattr("fatigue.pipeline.mission.events.DOUBLE_PRECISION_SAMPLES", 0.0)
+    monkeypatch.setattr("fatigue.pipeline.mission.precision.SINGLE_FROM", 0.0)
     assess(load_case(small_case().write(tmp_path / "case")), tmp_path / "result")
     single, double = (pd.read_parquet(f / "nodes.parquet") for f in (tmp_path / "result", small_result))
     assert single.life_km.to_numpy() == pytest.approx(double.life_km.to_numpy(), rel=1e-6)

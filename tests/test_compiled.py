@@ -13,7 +13,7 @@ from fatigue.compiled import remove_stale  # the module loads the BLAS of compil
 SCRIPT = """
 import hashlib, sys
 from pathlib import Path
-import fatigue.pipeline.mission.events
+import fatigue.pipeline.mission.precision
 from fatigue.assess import assess
 from fatigue.case import load_case
 from fatigue.synth import Size, synthesize
@@ -21,7 +21,7 @@ from fatigue.synth import Size, synthesize
 folder = Path(sys.argv[1])
 case = load_case(synthesize(folder / "case", Size(nodes=240, modes=12, events=2, seconds=8.0, rate=500.0), seed=3))
 for kernel, samples in (("single", 0.0), ("double", 1e12)):
-    fatigue.pipeline.mission.events.DOUBLE_PRECISION_SAMPLES = samples
+    fatigue.pipeline.mission.precision.SINGLE_FROM = samples
     assess(case, folder / kernel, share=0.1, threads=1, report=False)
     for table in ("nodes", "damage", "cycles", "histogram", "structural_stress", "welds"):
         print(kernel, table, hashlib.sha256((folder / kernel / f"{table}.parquet").read_bytes()).hexdigest())

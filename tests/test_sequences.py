@@ -240,7 +240,7 @@ def test_single_precision_and_long_records_join_alike(tmp_path: Path, monkeypatc
     nodes = assessed(case, tmp_path / "rows")[1]["nodes"]
     monkeypatch.setattr("fatigue.life.counting.count.LONGEST_ROW", 100)
     in_chunks = assessed(case, tmp_path / "chunks")[1]["nodes"]
-    monkeypatch.setattr("fatigue.pipeline.mission.events.DOUBLE_PRECISION_SAMPLES", 1.0)
+    monkeypatch.setattr("fatigue.pipeline.mission.precision.SINGLE_FROM", 1.0)
     single = assessed(case, tmp_path / "single", share=0.0)[1]["nodes"]
     for other, tolerance in ((in_chunks, 1e-11), (single, 2e-6)):
         for name in ("damage_per_km_transitions", "damage_per_km", "max_range_MPa"):

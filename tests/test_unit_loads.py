@@ -54,7 +54,7 @@ def test_a_unit_load_equals_a_mode(tmp_path, mode, suffix, share, counting):
 
 def test_a_unit_load_equals_a_mode_in_single_precision(tmp_path, monkeypatch):
     """To 3e-7, where the fast counter serves."""
-    monkeypatch.setattr("fatigue.pipeline.mission.events.DOUBLE_PRECISION_SAMPLES", 10.0)
+    monkeypatch.setattr("fatigue.pipeline.mission.precision.SINGLE_FROM", 10.0)
     modal = assessed(plain().write(tmp_path / "modal", "parquet"), tmp_path / "a")
     case = plain()
     forces = as_unit_load(case, 2, "force", "parquet")

@@ -132,7 +132,7 @@ def test_screened_points_are_bounded_at_vertices(tmp_path):
 
 def test_large_jobs_are_counted_in_double_precision(tmp_path, monkeypatch):
     """The counter in single precision does not read vertices; the provenance says what served."""
-    monkeypatch.setattr(events, "DOUBLE_PRECISION_SAMPLES", 0.0)
+    monkeypatch.setattr("fatigue.pipeline.mission.precision.SINGLE_FROM", 0.0)
     assess(at_vertices(small_case()).write(tmp_path / "case"), tmp_path / "result", share=0.0, report=False)
     rules = json.loads((tmp_path / "result" / "provenance.json").read_text())["rules"]
     assert (rules["precision"], rules["reversals"]) == ("double", "vertex")

@@ -13,10 +13,10 @@ _CHANNELS = "Export time and modal coordinates as CSV"
 AS_CSV = "Save the sheet as CSV (UTF-8)"
 UNPACK = "Unpack it and give the file inside"
 _ANSYS_FORCES = (
-    "Write the nodal forces of the weld elements with ESEL, FORCE,STATIC and NFORCE as a CSV of element_forces"
+    "Export it with the macro that `fatigue request ansys` writes: the text is for --forces, the .cdb for --mesh"
 )
 _ABAQUS_FORCES = (
-    "Export it with abaqus_export.py (fatigue example DIR --requests), and give the text to --forces and --mesh"
+    "Export it with abaqus_export.py (fatigue request abaqus -o FILE), and give the text to --forces and --mesh"
 )
 _PANDAS = "Turn it into Parquet: python -c \"import pandas as p; p.{0}('FILE').to_parquet('FILE.parquet')\""
 
@@ -156,9 +156,6 @@ TEXT = (
     Known(
         "a text matrix file of NASTRAN (.op4)", _OP2, within=rb"^[ \d-]{31}\d\w{1,8} *(?:1P,\d+[ED]\d+\.\d+)?\s*\n"
     ),  # [V]
-    Known(
-        "an ANSYS archive (.cdb)", "Write the mesh as a NASTRAN deck", within=rb"(?im)^(?:NBLOCK,|EBLOCK,|/PREP7|/COM,)"
-    ),
     Known("an LS-DYNA deck", "Write the mesh as a NASTRAN deck", within=rb"(?im)^\*KEYWORD"),  # [D]
     Known("Abaqus results as text (.fil)", _ABAQUS_FORCES, within=rb"^\*I +\d+I +\d?1921"),  # [D]
     Known("an STL surface", "Give the NASTRAN deck (.bdf)", within=rb"(?i)^\s*solid\b[^\n]*\n\s*facet normal"),  # [D]
@@ -206,6 +203,14 @@ UNIVERSAL = Known(
     "a universal file (.unv, .uff)", _TABLE, within=rb"^ {4}-1 *\r?\n {0,5}\d{1,5}b?[ \r\n]", has_zeros=True
 )  # [V]
 RPC = Known("an RPC III file (.rsp, .drv)", _TABLE, (b"FORMAT\0",), within=rb"^FORMAT\0+ *(?:BINARY|ASCII)")  # [V]
+CDB = Known(
+    "an ANSYS archive (.cdb)",
+    "Give it to fatigue convert --mesh",
+    within=rb"(?im)^(?:NBLOCK,|EBLOCK,|/PREP7|/COM,)",
+)  # [V]
+ANSYS_TEXT = Known(
+    "a text of the ANSYS macro", "Give it to fatigue convert --forces", within=rb"\Afatigue export \d+ +ANSYS\b"
+)
 EXPORT = Known("a text of the export script", "Give it to --forces and --mesh", within=rb"\Afatigue export \d")  # [V]
 INP = Known(
     "an Abaqus deck (.inp)",
@@ -218,15 +223,17 @@ NPZ = Known("a NumPy archive (.npz)", _TABLE, zipped=r".*\.npy$")  # [V]
 MATLAB = Known(
     "a MATLAB file",
     _TABLE,
-    within=rb"(?s)^(?:MATLAB 5\.0 MAT-file|[\0-\x34]\0\0\0.{8}[\0\x01]\0\0\0[\x02-\x40]\0\0\0[A-Za-z]\w*\0)",
+    within=rb"(?s)^(?:.{124}(?:\0\x01IM|\x01\0MI)"
+    rb"|[\0-\x34]\0\0\0.{8}[\0\x01]\0\0\0[\x02-\x40]\0\0\0[A-Za-z]\w*\0"
+    rb"|\0\0(?:\x03[\xe8-\xff]|\x04[\0-\x1c]).{8}\0\0\0[\0\x01]\0\0\0[\x02-\x40][A-Za-z]\w*\0)",
     has_zeros=True,
-)  # [V] of version 5 to 7; of version 4, little end
-MATLAB_73 = Known("a MATLAB 7.3 file", _TABLE, (b"MATLAB 7.3 MAT-file",))  # [V]
+)  # [V] of version 5 to 7, whose first 116 bytes are any text; of version 4, little and big end
+MATLAB_73 = Known("a MATLAB 7.3 file", _TABLE, (b"\0\x02IM", b"\x02\0MI"), at=124)  # [V]
 WORKBOOK = Known("an Excel workbook (.xlsx)", f"{AS_CSV}, or: fatigue channels FILE -o TABLE.csv", zipped=r"xl/")  # [V]
 
 OWN = (
     *(PARQUET, HDF5, OP2, MCF, PUNCH, DECK, _CASE, _REGISTER),
-    *(TDMS, MDF, UNIVERSAL, RPC, NPY, NPZ, MATLAB, MATLAB_73, WORKBOOK, ADAMS, EXPORT, INP),
+    *(TDMS, MDF, UNIVERSAL, RPC, NPY, NPZ, MATLAB, MATLAB_73, WORKBOOK, ADAMS, ANSYS_TEXT, EXPORT, INP, CDB),
 )
 """Formats that are read, and where; ``readers.foreign.formats`` names its entries by these."""
 

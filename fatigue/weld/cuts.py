@@ -30,11 +30,12 @@ class WeldCut:
     Attributes
     ----------
     name : kind, first and last node, assessed property and a letter; the same in every run on the same mesh
-    kind : "tee", "corner", "flat", "fold" or "marked"
+    kind : "tee", "corner", "flat", "fold", "solid_toe", or what marked it
     pids : properties that meet at the weld
     pid : property of the assessed plate
     line : the weld line, its normals on the side of the attached plate if there is one
     elements : element ids of the assessed side
+    columns : of solids, the node ids through the thickness beneath each node of the line, the line's own first
     """
 
     name: str
@@ -43,6 +44,7 @@ class WeldCut:
     pid: int
     line: WeldLine
     elements: NDArray[np.int64]
+    columns: tuple[tuple[int, ...], ...] = ()
 
 
 def trace(topo: Topology, keys: dict[int, Key]) -> list[WeldCut]:

@@ -90,8 +90,6 @@ FOREIGN = {
     "an index of an NI TDMS file (.tdms_index)": lambda: b"TDSh\x0e\0\0\0" + bytes(100),
     "an ASCII OP2 file": lambda: b"       3\n       1       2      24\n       7\nNASTRAN FORT TAPE ID CODE - \n",
     "a NASTRAN print file (.f06)": lambda: b"1\n0        N A S T R A N    E X E C U T I V E\n GRID 1\n CEND\n",
-    "an ANSYS archive (.cdb)": lambda: b"/COM,ANSYS RELEASE 2019 R2\n/PREP7\nNBLOCK,6,SOLID\n",
-    "an Abaqus deck (.inp)": lambda: b"** by hand\n*Heading\n*Node\n1, 0., 0., 0.\n",
     "an LS-DYNA deck": lambda: b"$ by hand\n*KEYWORD\n*NODE\n",
     "an Adams model (.adm)": lambda: b"!ADAMS/View model\nPART/1, GROUND\n",
     "an STL surface": lambda: b"solid body\n facet normal 0 0 1\n",

@@ -71,6 +71,14 @@ def check(options: dict[str, bool], case_file: Path, strict: bool, as_json: bool
     help="Points whose ranges go into histogram.parquet: the worst of each weld and those above a tenth of the limit, "
     "all that are counted, or none.",
 )
+@click.option(
+    "--precision",
+    type=click.Choice(("auto", "double")),
+    default="auto",
+    show_default=True,
+    help="Of counting: single precision for jobs of more than 3e7 stress samples, within 1e-6 of the damage; or double "
+    "for all.",
+)
 @click.option("--scheduler", metavar="ADDRESS", help="Use the workers of a dask cluster (package `distributed`).")
 @click.option(
     "--force", is_flag=True, help="Replace the result of another case, and files in DIR that fatigue did not write."
@@ -95,6 +103,7 @@ def assess(
     screen: float | None,
     likely_worst: bool,
     histogram: Literal["worst", "all", "none"],
+    precision: Literal["auto", "double"],
     scheduler: str | None,
     force: bool,
     no_report: bool,
@@ -139,6 +148,7 @@ def assess(
             share=0.0 if exact else screen,
             proves_worst=not likely_worst,
             histogram=histogram,
+            precision=precision,
             strict=strict,
             require_verified=require_verified,
             force=force,

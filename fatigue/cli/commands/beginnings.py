@@ -16,23 +16,17 @@ from fatigue.stages import stage
 @cli.command(short_help="Write the shipped car body, a case in two variants.")
 @click.argument("folder", metavar="DIR", type=FOLDER)
 @click.option("--templates", is_flag=True, help="Instead, tables to fill in from a standard: EN 17149-3, DVS 1608.")
-@click.option(
-    "--requests", is_flag=True, help="Instead, scripts that export forces and mesh from other solvers: Abaqus."
-)
 @click.option("--force", is_flag=True, help="Overwrite files of the same names.")
-def example(folder: Path, templates: bool, requests: bool, force: bool) -> None:
+def example(folder: Path, templates: bool, force: bool) -> None:
     """Write the shipped car body, a case in two variants, to DIR.
 
     \b
     Example:
       fatigue example demo && fatigue assess demo/case.toml -o result
     """
-    if templates and requests:
-        raise click.UsageError("--templates and --requests are two things: ask for one")
-    from fatigue.example import write_example, write_requests, write_templates
+    from fatigue.example import write_example, write_templates
 
-    write = write_templates if templates else write_requests if requests else write_example
-    for file in write(folder, force=force):
+    for file in (write_templates if templates else write_example)(folder, force=force):
         say(file)
 
 

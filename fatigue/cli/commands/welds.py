@@ -22,7 +22,7 @@ from fatigue.stages import stage
 @click.option(
     "--write-lines",
     type=FILE,
-    help="Table of the lines as points in space (CSV) to write; --lines finds them on another mesh.",
+    help="Table of the lines as points in space (CSV) to write, for another mesh: --lines; -o has their names then.",
 )
 @click.option("--vtp", type=FILE, help="Picture of the lines for ParaView.")
 @click.option("--only", default="", help="List only lines whose name contains this text.")
@@ -43,8 +43,10 @@ def welds(
     """Find the weld lines of a mesh; list them, write the register to edit, and a picture of them.
 
     \b
-    Example:
+    Examples:
       fatigue welds model.bdf -o welds_register.csv --vtp lines.vtp
+      fatigue welds model.bdf --register welds_register.csv --write-lines lines.csv -o by_lines.csv
+      fatigue welds finer.bdf --lines lines.csv --register by_lines.csv -o finer_register.csv
     """
     refuse_all(missing_foreign(mesh))
     refuse_all(missing_tables(sources.register, sources.node_lists, sources.lines))

@@ -15,7 +15,6 @@ from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 from scipy.special import log_ndtr, ndtr, ndtri
 
 from fatigue.life.band.quantiles import STEP, STRENGTHS, WEIGHTS, normal_grid
@@ -95,4 +94,6 @@ def median_life(survival: Callable[[float], float], low: float, high: float) -> 
         if high > _LONGEST:
             return float(np.inf)
         high, step = high + step, 2.0 * step
+    from scipy.optimize import brentq  # noqa: PLC0415 - a fifth of a second that few runs have to wait for
+
     return float(np.exp(brentq(above, low, high, xtol=1e-10)))

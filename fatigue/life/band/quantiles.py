@@ -5,7 +5,6 @@ from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 from scipy.special import ndtr, ndtri
 
 Floats = NDArray[np.float64]
@@ -55,6 +54,8 @@ def life_of_strengths(log_life: Floats, sigma_other: float, survival: float) -> 
     finite = log_life[np.isfinite(log_life)]
     if len(finite) == 0 or _survival(log_life, finite[-1] + 9.0 * sigma_other, sigma_other) >= survival:
         return float(np.inf)
+    from scipy.optimize import brentq  # noqa: PLC0415 - a fifth of a second that few runs have to wait for
+
     low, high = finite[0] - 9.0 * sigma_other, finite[-1] + 9.0 * sigma_other
     found = brentq(lambda at: _survival(log_life, at, sigma_other) - survival, low, high, xtol=1e-13, rtol=1e-14)
     return float(np.exp(found))

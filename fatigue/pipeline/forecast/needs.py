@@ -171,7 +171,7 @@ def result_tables(size: JobSize) -> float:
     rows = 2 * size.stations * (ROW["nodes"] + events * ROW["damage"])
     rows += size.stations * size.modes * ROW["structural_stress"]
     rows += size.histograms * events * BINS * ROW["histogram"]
-    listed = size.welds * (0.05 if size.is_single else 1.0)
+    listed = size.welds * (0.05 if size.is_large else 1.0)
     return rows + ROW["cycle"] * CYCLES_PER_SAMPLE * sum(size.samples) * listed
 
 
@@ -181,7 +181,7 @@ def _seconds(size: JobSize) -> float:
     per_sample = (alone + each * size.modes) * (SCREENED if size.is_screened else 1.0)
     counted = 2.0 * size.stations * sum(size.counted) * per_sample
     prepared = sum(size.modes * n * (PREPARED_LONG if n > LONGEST_TRANSFORM else PREPARED) for n in size.counted)
-    listed = LISTED * sum(size.counted) * size.welds * (0.05 if size.is_single else 1.0)
+    listed = LISTED * sum(size.counted) * size.welds * (0.05 if size.is_large else 1.0)
     exact, each = PER_STRESS_SAMPLE[False]
     binned = 2.0 * size.histograms * sum(size.counted) * (exact + each * size.modes)
     shown = SECOND_ON_PAGE * min(size.welds, MOST_DETAILED) if size.report else 0.0

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fatigue.life.mission import Plan
 from fatigue.pipeline.count.worst import HistogramPoints
 from fatigue.pipeline.forecast.throats import counted_throats
-from fatigue.pipeline.mission.events import DOUBLE_PRECISION_SAMPLES
+from fatigue.pipeline.mission.precision import Precision, counts_single, is_large
 from fatigue.pipeline.multiaxial.method import DECIDING
 from fatigue.pipeline.run.work import SHARE
 from fatigue.pipeline.solve.body import Body
@@ -50,6 +50,7 @@ class JobSize:
     vertex: bool = False
     shear: str = "off"
     throats: int = 0
+    precision: Precision = "auto"
 
     @property
     def counted(self) -> tuple[int, ...]:
@@ -59,7 +60,12 @@ class JobSize:
     @property
     def is_single(self) -> bool:
         """Whether the counter in single precision serves."""
-        return not self.vertex and 2 * self.stations * sum(self.counted) > DOUBLE_PRECISION_SAMPLES
+        return not self.vertex and counts_single(self.stations, self.counted, self.precision)
+
+    @property
+    def is_large(self) -> bool:
+        """Whether few cycles are kept."""
+        return is_large(self.stations, self.counted)
 
     @property
     def is_screened(self) -> bool:
@@ -89,15 +95,16 @@ def job_size(
     threads: int | None = None,
     report: bool = True,
     histogram: HistogramPoints = "worst",
+    precision: Precision = "auto",
 ) -> JobSize:
     """Size of a job; ``factors`` where they are known, ``share`` and ``threads`` None as in an assessment."""
     asked = body.case.counting.upsample
     wanted = tuple(factors) or (AUTOMATIC if asked == "auto" else asked,) * len(plan.passes)
     assumed = tuple(p.factor(factor) for p, factor in zip(plan.passes, wanted, strict=True))
     stations, samples = int(body.lines.begin[-1]), tuple(one.samples for one in plan.passes)
-    counted = sum(n * factor for n, factor in zip(samples, assumed, strict=True))
+    counted = [n * factor for n, factor in zip(samples, assumed, strict=True)]
     method = body.case.multiaxial.method
-    screens = 2 * stations * counted > DOUBLE_PRECISION_SAMPLES and method not in DECIDING
+    screens = is_large(stations, counted) and method not in DECIDING
     by_default = SHARE if screens else 0.0
     return JobSize(
         modes=len(body.coordinates),
@@ -113,4 +120,5 @@ def job_size(
         vertex=body.case.counting.reversals == "vertex",
         shear=method,
         throats=counted_throats(body),
+        precision=precision,
     )

@@ -18,10 +18,10 @@ from fatigue.pipeline.forecast.shear import shear_seconds
 from fatigue.pipeline.forecast.throats import counted_throats, throat_seconds
 from fatigue.pipeline.mission.event_load import EventLoad
 from fatigue.pipeline.mission.events import (
-    DOUBLE_PRECISION_SAMPLES,
     load_of,
     shortened_record,
 )
+from fatigue.pipeline.mission.precision import counts_single, is_large
 from fatigue.pipeline.multiaxial.method import DECIDING
 from fatigue.pipeline.run.work import SHARE, screening_of
 from fatigue.pipeline.solve.model import Model
@@ -124,12 +124,12 @@ def job_time(plan: Plan, model: Model, stations: int, factors: Sequence[int], re
         finer = factor // max(1, one.refined)
         sampled = [f * p.samples for f, p in zip(factors, plan.passes, strict=True)]
         upsampled = sum(sampled)
-        single = 2 * stations * upsampled > DOUBLE_PRECISION_SAMPLES
+        single, large = counts_single(stations, sampled, "auto"), is_large(stations, sampled)
         prepare_s, load = _timed(lambda: load_of(body, event, record, finer, single=single))
         _, short = _timed(lambda: load_of(body, event, less, finer, single=single))
         exact, result = _of_length(load, short, trial.counted)
         default = exact
-        screens = single and method not in DECIDING
+        screens = large and method not in DECIDING
         if screens:
             default, result = _of_length(load, short, lambda chunk: trial.screened(chunk, scratch))
 
@@ -141,7 +141,7 @@ def job_time(plan: Plan, model: Model, stations: int, factors: Sequence[int], re
     cells = 2 * stations * (COLUMNS["nodes"] + events * COLUMNS["damage"])
     cells += stations * len(body.coordinates) * COLUMNS["structural_stress"]
     passes = factor * sum(p.samples for p in plan.passes) / n  # cycles are as many, however finely they are sampled
-    cycles = _kept_cycles(model.stations, result, single=single) * of_groups * passes
+    cycles = _kept_cycles(model.stations, result, large=large) * of_groups * passes
     worst = worst_points(model.stations, result)
     binned = len(histogram_points(model.stations, result, worst, everything=False)) * of_groups
     alone, each = PER_STRESS_SAMPLE[False]
@@ -158,11 +158,11 @@ def job_time(plan: Plan, model: Model, stations: int, factors: Sequence[int], re
     )
 
 
-def _kept_cycles(stations: Stations, result: GroupResult, *, single: bool) -> float:
+def _kept_cycles(stations: Stations, result: GroupResult, *, large: bool) -> float:
     """Cycles of the worst points of a group that go into the table."""
     used_up, cycles = result.mission.utilisation, result.of_events("cycles_per_pass")[0]
     worst = [(p.station, p.face) for p in worst_points(stations, result)]
-    return sum(float(np.nan_to_num(cycles[at])) for at in worst if used_up[at] >= (SHARE if single else 0.0))
+    return sum(float(np.nan_to_num(cycles[at])) for at in worst if used_up[at] >= (SHARE if large else 0.0))
 
 
 @dataclass(frozen=True, slots=True)

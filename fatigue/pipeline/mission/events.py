@@ -14,6 +14,7 @@ from fatigue.life.mission import Plan
 from fatigue.life.records.history import ModalHistory, mean_and_covariance
 from fatigue.pipeline.mission.event_load import EventLoad, HowCounted, as_counted, held_copies, of_samples
 from fatigue.pipeline.mission.offsets import MeanLevel, mean_level, with_offset
+from fatigue.pipeline.mission.precision import Precision, counts_single
 from fatigue.pipeline.mission.unit_loads import event_files
 from fatigue.pipeline.mission.upsampling import automatic_factors
 from fatigue.pipeline.solve.body import Body
@@ -24,7 +25,6 @@ from fatigue.spectrum.moments import Spectra, default_upper_hz, has_spectrum, se
 
 log = logging.getLogger(__name__)
 
-DOUBLE_PRECISION_SAMPLES = 5e9  # of stress, both faces: above, the kernel in single precision counts (3e-7 of damage)
 RECORD = "record"  # file of the samples as they were read
 HELD_BYTES = 16e6  # of all records together, as they are in their files; the longest beyond that stay on disk
 
@@ -35,13 +35,14 @@ def event_loads(
     scratch: Path | None = None,
     threads: int | None = None,
     factors: Sequence[int] | None = None,
+    precision: Precision = "auto",
 ) -> tuple[EventLoad, ...]:
     """What all stations share of every event; it is kept while welds stream by.
 
     ``scratch`` is a folder for the longest records where all of them are more than ``HELD_BYTES``; None: all are held
     in memory, whatever their size. ``threads`` prepare an event each, by default one per processor core; the numbers do
     not depend on how many there are. ``factors`` by which the records are upsampled, where they are known; None: as the
-    case asks for.
+    case asks for. ``precision`` in which cycles are counted.
     """
     body, events = groups.body, groups.body.case.mission.event
     sizes = np.array([len(body.coordinates) * p.samples for p in plan.passes])
@@ -55,7 +56,7 @@ def event_loads(
     if factors is None:
         factors = _factors(groups, plan, [load for load, _ in loads], threads)
     samples = [f * p.samples for f, p in zip(factors, plan.passes, strict=True)]
-    single = 2 * int(body.lines.begin[-1]) * sum(samples) > DOUBLE_PRECISION_SAMPLES
+    single = counts_single(int(body.lines.begin[-1]), samples, precision)
     is_fast = single and body.case.counting.reversals == "samples"
     log.info("cycles are counted in %s precision", "single" if is_fast else "double")
     for event, upsample in zip(events, factors, strict=True):

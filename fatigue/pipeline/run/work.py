@@ -17,6 +17,7 @@ from fatigue.pipeline.count.result import GroupResult
 from fatigue.pipeline.count.worst import HistogramPoints
 from fatigue.pipeline.mission.event_load import EventLoad, held_copies, kept_single_record
 from fatigue.pipeline.mission.events import event_loads
+from fatigue.pipeline.mission.precision import Precision, is_large
 from fatigue.pipeline.multiaxial.counted import long_paths
 from fatigue.pipeline.multiaxial.found import MODELS
 from fatigue.pipeline.multiaxial.group import Shear, group_multiaxial
@@ -41,14 +42,15 @@ SHARE = 0.1  # of the damage limit: a point proven to stay below it lasts ten ti
 class ScreeningOptions:
     """Which points may go without counting, and of which the histograms are kept, as the user asks for it.
 
-    A proven bound below ``share`` of the damage limit is enough. 0: every point is counted. None: ``SHARE`` for a job
-    that is large enough for the kernel in single precision, else 0. ``proves_worst``: see ``bounds.Screening``.
-    ``histogram``: see ``worst.histogram_points``.
+    A proven bound below ``share`` of the damage limit is enough. 0: every point is counted. None: ``SHARE`` for a
+    large job, else 0; see ``mission.precision``. ``proves_worst``: see ``bounds.Screening``. ``histogram``: see
+    ``worst.histogram_points``. ``precision``: in which cycles are counted.
     """
 
     share: float | None = None
     proves_worst: bool = True
     histogram: HistogramPoints = "worst"
+    precision: Precision = "auto"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -107,8 +109,9 @@ def open_work(
     ``scratch`` is a folder for what memory cannot hold; ``threads`` are by default one per processor core; ``factors``
     as of ``event_loads``.
     """
-    loads = event_loads(groups, plan, scratch / "histories", threads, factors)
-    large = SHARE if any(load.single is not None for load in loads) else 0.0
+    loads = event_loads(groups, plan, scratch / "histories", threads, factors, options.precision)
+    samples = [load.counted.q.shape[1] for load in loads]
+    large = SHARE if is_large(int(groups.body.lines.begin[-1]), samples) else 0.0
     named = groups.body.case.multiaxial.method in DECIDING  # no bound says what shear does to the points it settles
     share = 0.0 if named else large if options.share is None else options.share
     log.info("points proven to stay below %g of the damage limit are not counted", share)

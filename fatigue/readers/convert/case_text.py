@@ -19,7 +19,7 @@ title = {title}
 modes = "modes.csv"
 welds = "welds.csv"
 weld_nodes = "weld_nodes.csv"
-element_forces = "element_forces.parquet"
+{columns}element_forces = "element_forces.parquet"
 weld_elements = "weld_elements.csv"
 nodes = "nodes.parquet"
 elements = "elements.parquet"
@@ -42,6 +42,10 @@ upsample = "auto"              # 20 samples per peak; 1: the samples as they are
 target_km = {target!r}         # EDIT
 km_per_year = {per_year!r}     # EDIT
 damage_limit = 1.0
+"""
+
+_COLUMNS = """\
+weld_columns = "{columns}"
 """
 
 _POINTS = """\
@@ -75,17 +79,19 @@ def case_text(
     events: Sequence[tuple[str, str]],
     loads: tuple[str, str] = ("", ""),
     points: tuple[str, str] | None = None,
+    columns: str | None = None,
 ) -> str:
     """Text of a case with one event for each (name, file), all with the same share and speed.
 
     ``loads`` is the text of the unit loads of the body, and what to write of them behind the events; ``points`` are the
-    files of stress points and of their modal stresses.
+    files of stress points and of their modal stresses; ``columns`` is the file of the columns of nodes of solids.
     """
     head = _HEAD.format(
         title=json.dumps(options.title or options.mesh.stem),
         convention=convention,
         ignore=list(ignore_modes),
         loads=loads[0],
+        columns="" if columns is None else _COLUMNS.format(columns=columns),
         points="" if points is None else _POINTS.format(points=points[0], stresses=points[1]),
         curve=options.curve,
         target=float(options.target_km),

@@ -17,6 +17,7 @@ from fatigue.readers.convert.loads.names import UnitLoad
 from fatigue.readers.convert.loads.text import UNIT_LOADS, load_warnings, loads_not_given, loads_text
 from fatigue.readers.convert.modal_basis import common_modes, coordinate_units, only_modes
 from fatigue.readers.convert.neutral_tables import (
+    WELD_COLUMNS,
     elements_table,
     event_tables,
     forces_table,
@@ -110,8 +111,11 @@ def convert(options: ConvertOptions) -> Conversion:
     ignored = {int(mode) for history in inputs.histories for mode in history.mode} - set(results.mode.tolist())
     files |= {name: table for (_, name), table in events.items()}
     lacking = loads_not_given(loads, events)
+    columns = WELD_COLUMNS if WELD_COLUMNS in files else None
     points = (beside.points, MODAL_STRESSES) if beside else None
-    files[CASE] = case_text(options, convention, sorted(ignored), list(events), loads_text(loads, lacking), points)
+    files[CASE] = case_text(
+        options, convention, sorted(ignored), list(events), loads_text(loads, lacking), points, columns
+    )
     kept, kept_case = {}, None
     if options.keep_case and (options.out / CASE).is_file():
         kept_case = options.out / CASE

@@ -1,20 +1,20 @@
 """Weld lines by coordinates: polylines of a table, the mesh edges along them, and what is doubtful about the match."""
 
-import csv
-from collections.abc import Iterable, Mapping, Sequence
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from io import StringIO
-from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, refuse
 from fatigue.readers.neutral.tables import open_table
+from fatigue.weld.along.corridor import local_edges
+from fatigue.weld.along.doubts import coincident, turns
 from fatigue.weld.along.named import named_along
 from fatigue.weld.along.path import Along, Gap, edges_along
 from fatigue.weld.along.polyline import Polyline
-from fatigue.weld.along.thinned import thinned
 from fatigue.weld.cuts import WeldCut, trace
 from fatigue.weld.detection import Topology
 
@@ -71,34 +71,6 @@ def read_given_lines(path: Path) -> tuple[list[GivenLine], list[Problem]]:
     return found, table.warnings
 
 
-def lines_text(cuts: Iterable[WeldCut]) -> str:
-    """Table of the lines of some cuts, to be given for another mesh; the sides of one line are one."""
-    written: set[tuple[int, int]] = set()
-    out = StringIO()
-    writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(["line", "point", "x_mm", "y_mm", "z_mm", "closed"])
-    names: dict[str, int] = {}
-    for cut in sorted(cuts, key=lambda cut: -cut.line.node.size):  # one that goes on before those that end at corners
-        edges = _edges(cut)
-        if edges & written:
-            continue
-        written |= edges
-        stem = cut.name.partition(":")[0] if cut.kind == "line" else cut.name.rpartition("_p")[0]
-        names[stem] = names.get(stem, 0) + 1
-        name = stem if names[stem] == 1 else f"{stem} {names[stem]}"
-        line = thinned(cut.line)
-        for number, place in enumerate(line.points, 1):
-            writer.writerow([name, number, *(f"{x:.9g}" for x in place), str(line.closed).lower()])
-    return out.getvalue()
-
-
-def _edges(cut: WeldCut) -> set[tuple[int, int]]:
-    """Pairs of node ids of the edges of a cut, the lower first."""
-    nodes = cut.line.node[~cut.line.edge_mid].tolist()
-    around = [*nodes, nodes[0]] if cut.line.closed else nodes
-    return {(min(a, b), max(a, b)) for a, b in pairwise(around)}
-
-
 def cuts_along(
     topo: Topology, lines: Sequence[GivenLine], path: Path, taken: Mapping[int, str]
 ) -> tuple[list[WeldCut], dict[int, str], list[Problem]]:
@@ -112,22 +84,30 @@ def cuts_along(
     of_edge: dict[int, str] = {}
     problems: list[Problem] = []
     warnings: list[Problem] = []
+    local = local_edges(topo) if lines else np.zeros(0)
     for line in lines:
         where = f"{path}, line {line.name}"
-        found = edges_along(topo, line.polyline, line.tolerance)
+        found = edges_along(topo, local, line.polyline, line.tolerance)
         if isinstance(found, Gap):
             problems.append(_no_edges(where, found, topo, line))
             continue
-        both = {**taken, **of_edge}
-        if other := next((both[edge] for edge in found.edges if edge in both), None):
-            a, b = topo.mesh.node[topo.ends[next(edge for edge in found.edges if edge in both)]]
+        twice = next((edge for edge, count in Counter(found.edges).items() if count > 1), None)
+        if twice is not None:
+            a, b = topo.mesh.node[topo.ends[twice]]
+            what = f"it goes along the edge between the nodes {a} and {b} twice"
+            problems.append(Problem("line_turns_back", where, what, "Number its points in their order along the weld"))
+            continue
+        shared = next((edge for edge in found.edges if edge in taken or edge in of_edge), None)
+        if shared is not None:
+            other = taken.get(shared) or of_edge[shared]
+            a, b = topo.mesh.node[topo.ends[shared]]
             what = f"the edge between the nodes {a} and {b} belongs to the line {other}, too"
             problems.append(Problem("edge_twice", where, what, "Move its points, or give it a smaller tolerance_mm"))
             continue
         of_edge |= dict.fromkeys(found.edges, line.name)
         own = trace(topo, dict.fromkeys(found.edges, (line.name, ())))
-        cuts += named_along(own, line.polyline, line.name)
-        warnings += _doubts(where, found, topo, line)
+        cuts += named_along(own, line.polyline, line.name, topo.mesh)
+        warnings += _doubts(where, found, topo, local, line)
     refuse(DataError, problems)
     return cuts, of_edge, warnings
 
@@ -144,10 +124,12 @@ def _no_edges(where: str, gap: Gap, topo: Topology, line: GivenLine) -> Problem:
         remedy = "Merge the nodes that coincide"
     elif gap.distance > _FAR * size or float(line.polyline.at[-1]) < size / 1e3:
         remedy = "Give its points in mm, in the basic frame of the model"
+    elif gap.distance <= gap.tolerance:
+        remedy = "End it there if the weld ends there, add points where it bends, or give it a larger tolerance_mm"
     return Problem("no_edges_along", where, what, remedy)
 
 
-def _doubts(where: str, found: Along, topo: Topology, line: GivenLine) -> list[Problem]:
+def _doubts(where: str, found: Along, topo: Topology, local: NDArray[np.float64], line: GivenLine) -> list[Problem]:
     """What is doubtful about a match: a node far off, ends that miss the ends of the line."""
     doubts = []
     xyz = topo.mesh.xyz[found.nodes]
@@ -159,4 +141,14 @@ def _doubts(where: str, found: Along, topo: Topology, line: GivenLine) -> list[P
         if miss > _ENDS * (line.tolerance or 0.5 * edge):
             what = f"it {word} {miss:.3g} mm from the nearest node along it"
             doubts.append(Problem("line_end_off", where, what, "Check whether the weld is that long, or the mesh"))
+    if sharp := turns(topo, line.polyline, found):
+        node, turn = sharp[0]
+        what = f"the edges along it turn by {turn:.0f} deg at node {topo.mesh.node[node]}, where it does not"
+        what += f", and at {len(sharp) - 1} more" if len(sharp) > 1 else ""
+        doubts.append(Problem("line_turns", where, what, "Look at it (--vtp); give points nearer to the nodes"))
+    if apart := coincident(topo, local, found):
+        own, other = topo.mesh.node[list(apart[0])]
+        what = f"at {len(apart)} of its nodes lie others that are not merged: {other} at node {own}, the first"
+        remedy = "Merge them if the plates there are joined: their sides are not assessed with it"
+        doubts.append(Problem("nodes_apart", where, what, remedy))
     return doubts

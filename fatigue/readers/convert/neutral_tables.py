@@ -1,6 +1,7 @@
 """Tables of the neutral format, built from a foreign model, its forces, its modes and its weld lines."""
 
 from collections.abc import Collection, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +18,12 @@ from fatigue.readers.foreign.histories.foreign_history import ForeignHistory
 from fatigue.readers.neutral.body.modes import LOWEST_HZ
 from fatigue.readers.neutral.forces.convention import COMPONENTS
 from fatigue.readers.neutral.register.weld_register import RegisterRow, description_of
+from fatigue.weld.cuts import WeldCut
+from fatigue.weld.mesh import ShellMesh
+from fatigue.weld.solid.mesh import SolidMesh
+from fatigue.weld.solid.skin import skin_of
+
+WELD_COLUMNS = "weld_columns.csv"
 
 
 def nodes_table(model: FeModel) -> pa.Table:
@@ -28,9 +35,10 @@ def nodes_table(model: FeModel) -> pa.Table:
 def elements_table(model: FeModel) -> pa.Table:
     """Table of the shells, their corners n1 ... n4 and, where there are any, mid-side nodes n5 ... n8; 0 for none.
 
-    Where the thickness of some is not that of a plate, ``unconfirmed`` says why, for strain gauges on them.
+    Where the thickness of some is not that of a plate, ``unconfirmed`` says why, for strain gauges on them. Of solids
+    the table has the skin, faces numbered from above the last element on.
     """
-    mesh = model.mesh
+    mesh = model.mesh if model.solids is None else _with_skin(model.mesh, model.solids)
     around = np.concatenate([mesh.corner, mesh.mid], axis=1)
     ids = np.where(around >= 0, mesh.node[around], 0)
     columns = {f"n{k + 1}": ids[:, k] for k in range(8) if k < 4 or ids[:, 4:].any()}
@@ -39,6 +47,15 @@ def elements_table(model: FeModel) -> pa.Table:
     if doubts := unconfirmed_elements(model):
         columns["unconfirmed"] = pa.array([doubts.get(element) for element in mesh.element.tolist()], pa.string())
     return pa.table({"element": mesh.element, **columns})
+
+
+def _with_skin(shells: ShellMesh, solids: SolidMesh) -> ShellMesh:
+    """Shells, and the skin of solids as surface elements without thickness."""
+    skin = skin_of(solids).mesh
+    above = int(max(shells.element.max(initial=0), solids.element.max()))
+    names = ("corner", "mid", "pid", "thickness", "offset")
+    both = {name: np.concatenate([getattr(shells, name), getattr(skin, name)]) for name in names}
+    return replace(shells, element=np.concatenate([shells.element, above + skin.element]), **both)
 
 
 def forces_table(results: FeResults, force: NDArray[np.floating], rows: NDArray[np.int64]) -> pa.Table:
@@ -66,7 +83,7 @@ def loads_table(
 
 
 def weld_tables(found: FoundWelds) -> dict[str, pa.Table]:
-    """Tables welds, weld_nodes and weld_elements of the welds to assess."""
+    """Tables welds, weld_nodes and weld_elements of the welds to assess, and weld_columns of those of solids."""
     chosen = found.assessed()
     of_weld: dict[str, list[RegisterRow]] = {}
     for row in found.rows:
@@ -107,7 +124,22 @@ def weld_tables(found: FoundWelds) -> dict[str, pa.Table]:
                 "element": np.concatenate([cut.elements for _, cut in chosen]),
             }
         ),
+        **_columns_table([(row.weld, cut) for row, cut in chosen if cut.columns]),
     }
+
+
+def _columns_table(of_solids: Sequence[tuple[str, WeldCut]]) -> dict[str, pa.Table]:
+    """Table of the nodes through the thickness at every station of the welds of solids; no table without any."""
+    rows = [
+        (weld, int(order), node)
+        for weld, cut in of_solids
+        for order, column in zip(cut.line.order, cut.columns, strict=True)
+        for node in column
+    ]
+    if not rows:
+        return {}
+    columns = zip(("weld", "order", "node"), zip(*rows, strict=True), strict=True)
+    return {WELD_COLUMNS: pa.table({name: list(values) for name, values in columns})}
 
 
 def modes_table(results: FeResults, interface_modes: Sequence[int], simulated: SimulationModes) -> pa.Table:

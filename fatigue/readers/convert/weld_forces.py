@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from fatigue.readers.convert.modal_basis import coordinate_units
 from fatigue.readers.convert.weld_lines import FoundWelds
 from fatigue.readers.foreign.fe.model import FeModel, to_basic
-from fatigue.readers.foreign.fe.results import SHELL_KINDS, FeResults
+from fatigue.readers.foreign.fe.results import SHELL_KINDS, SOLID_KINDS, FeResults
 from fatigue.readers.units.systems import Normalisation, UnitSystem
 from fatigue.weld.cuts import WeldCut
 from fatigue.weld.mesh import normals
@@ -43,14 +43,20 @@ def with_forces_only(found: FoundWelds, results: FeResults) -> FoundWelds:
     present: dict[int, set[int]] = {}
     for element, node in zip(results.element[results.of_element], results.node[results.of_element], strict=True):
         present.setdefault(int(element), set()).add(int(node))
-    strange = results.of_element & ~np.isin(results.kind, sorted(SHELL_KINDS | _CONNECTORS))
-    strange_at = dict(zip(results.node[strange].tolist(), results.kind[strange].tolist(), strict=True))
-    gaps = {row.weld: _force_gap(cut, present, strange_at) for row, cut in found.assessed()}
+    strange_at = {of_solids: _strange_at(results, of_solids) for of_solids in (False, True)}
+    gaps = {row.weld: _force_gap(cut, present, strange_at[bool(cut.columns)]) for row, cut in found.assessed()}
     rows = (
         replace(row, status="excluded", reason=gaps[row.weld]) if row.status == "assess" and gaps[row.weld] else row
         for row in found.rows
     )
     return replace(found, rows=tuple(rows))
+
+
+def _strange_at(results: FeResults, of_solids: bool) -> dict[int, str]:
+    """Nodes of elements that do not belong to a cut of shells, or of solids, with the kind of the element."""
+    known = (SOLID_KINDS if of_solids else SHELL_KINDS) | _CONNECTORS
+    strange = results.of_element & ~np.isin(results.kind, sorted(known))
+    return dict(zip(results.node[strange].tolist(), results.kind[strange].tolist(), strict=True))
 
 
 def _force_gap(cut: WeldCut, present: dict[int, set[int]], strange_at: dict[int, str]) -> str:
@@ -61,11 +67,12 @@ def _force_gap(cut: WeldCut, present: dict[int, set[int]], strange_at: dict[int,
         many = f"{len(silent)} of {cut.elements.size} elements"
         found.append(f"{many} have no grid point forces, element {silent[0]} the first")
     covered = set().union(*(present.get(int(e), ()) for e in cut.elements))
-    bare = [int(n) for n in cut.line.node if int(n) not in covered]
+    nodes = [n for column in cut.columns for n in column] or cut.line.node.tolist()
+    bare = [n for n in nodes if n not in covered]
     if bare and not silent:
         found.append(f"node {bare[0]} has no grid point forces")
     touching: dict[str, int] = {}
-    for node in cut.line.node.tolist():
+    for node in nodes:
         if node in strange_at:
             touching.setdefault(strange_at[node], node)
     found += [f"an element of kind {kind} touches the line at node {node}" for kind, node in touching.items()]
@@ -93,6 +100,7 @@ def to_mid_surface(
 ) -> NDArray[np.floating]:
     """Forces with moments about the mid-surface: the grid lies at -offset along the element normal."""
     mesh = model.mesh
+    rows = rows[np.isin(results.element[rows], mesh.element)]  # forces of solids stand where they act
     at = np.searchsorted(mesh.element, results.element[rows])
     offset = mesh.offset[at]
     shifted = rows[offset != 0]

@@ -1,17 +1,31 @@
-"""Weld lines of an FE model: found in the mesh, or marked by node lists, node sets, plot elements and bars."""
+"""Weld lines of an FE model: found in the mesh, or marked by node lists, node sets, plot elements and bars.
 
-from collections.abc import Iterator, Mapping
+Those of solids are found on their skin, as those of shells on these, and become cuts through the plate beneath.
+"""
+
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 
 from fatigue.errors import DataError, Problem, given_path
 from fatigue.files.whole import replacing
-from fatigue.readers.convert.coordinate_lines import cuts_along, lines_text, read_given_lines
+from fatigue.readers.convert.coordinate_lines import cuts_along, read_given_lines
 from fatigue.readers.convert.joined_cuts import joined_cuts
+from fatigue.readers.convert.lines.marked import marked_edges
+from fatigue.readers.convert.lines.surfaces import (
+    MEETS_SOLIDS,
+    SHELL_ON_SOLID,
+    joined_through,
+    lines_of,
+    rows_of,
+    surfaces_of,
+    through_all,
+)
 from fatigue.readers.convert.options import WeldSources
+from fatigue.readers.convert.written_lines.moved_register import moved
+from fatigue.readers.convert.written_lines.points import lines_text
 from fatigue.readers.foreign.fe.model import FeModel, in_mm
 from fatigue.readers.foreign.read import read_model
 from fatigue.readers.neutral.register.register_file import open_register, register_text
@@ -19,7 +33,7 @@ from fatigue.readers.neutral.register.weld_register import RegisterRow, kind_of,
 from fatigue.readers.neutral.tables import open_table
 from fatigue.readers.units.systems import unit_system
 from fatigue.weld.cuts import WeldCut, trace
-from fatigue.weld.detection import CANDIDATES, WELDS, Key, Topology, classify, stacked_elements, topology
+from fatigue.weld.detection import CANDIDATES, WELDS, stacked_elements
 from fatigue.weld.line_check import check_line
 
 
@@ -56,34 +70,61 @@ def find_welds(model: FeModel, sources: WeldSources) -> FoundWelds:
     ------
     DataError : a marked line that is no line of mesh edges, an unknown set or marker, a bad register
     """
-    topo = topology(model.mesh)
+    surfaces = surfaces_of(model)
     lists, list_warnings = _node_lists(sources.node_lists)
-    marked = dict(_marked_edges(model, topo, sources, lists))
+    marked = marked_edges(model, surfaces, sources, lists)
     given, of_table = read_given_lines(sources.lines) if sources.lines else ([], [])
-    taken = {edge: key[0] for edge, key in marked.items()}
-    along, on_lines, doubts = cuts_along(topo, given, sources.lines or Path(), taken)
-    list_warnings += [*of_table, *doubts]
-    cuts = [*along, *trace(topo, marked)]
-    marked |= {edge: (name, ()) for edge, name in on_lines.items()}
-    detect = not marked if sources.detect is None else sources.detect
-    if detect:
-        found = {edge: key for edge, key in classify(topo).items() if edge not in marked}
-        for kinds in (True, False):  # a line of candidates does not end one of welds
-            cuts += trace(topo, {edge: key for edge, key in found.items() if (key[0] in WELDS) == kinds})
+    list_warnings += of_table
+    cuts: list[WeldCut] = []
+    on_skin: dict[str, WeldCut] = {}
+    faults: dict[str, str] = {}
+    of_surface = list(zip(surfaces, marked, lines_of(surfaces, given), strict=True))
+    alongs = [
+        cuts_along(surface.topo, lines, sources.lines or Path(), {edge: key[0] for edge, key in own.items()})
+        for surface, own, lines in of_surface
+    ]
+    detect = not (any(marked) or given) if sources.detect is None else sources.detect
+    for (surface, own, _), (along, on_lines, doubts) in zip(of_surface, alongs, strict=True):
+        list_warnings += doubts
+        here = [*along, *trace(surface.topo, own)]
+        if detect:
+            known = own.keys() | on_lines.keys()
+            found = {edge: key for edge, key in surface.edges().items() if edge not in known}
+            for kinds in (True, False):  # a line of candidates does not end one of welds
+                here += trace(surface.topo, {edge: key for edge, key in found.items() if (key[0] in WELDS) == kinds})
+        if surface.skin is not None:
+            on_skin |= {cut.name: cut for cut in here}
+            here, of_solids = through_all(surface.skin, here)
+            faults |= of_solids
+        cuts += here
+    faults |= {cut.name: MEETS_SOLIDS for cut in cuts if cut.kind == SHELL_ON_SOLID}
     elements = unconfirmed_elements(model)
     rows, unconfirmed = [], {}
     for cut in cuts:
         is_weld = cut.kind not in CANDIDATES or sources.candidates
-        rows.append(proposed(cut, "assess" if is_weld else "candidate", "" if is_weld else _CANDIDATE_REASON[cut.kind]))
-        unconfirmed[cut.name] = _unconfirmed(cut, elements)
+        row = proposed(cut, "assess" if is_weld else "candidate", "" if is_weld else _CANDIDATE_REASON[cut.kind])
+        rows.append(replace(row, surface="top") if cut.name in on_skin else row)  # the toe lies on the top surface
+        unconfirmed[cut.name] = "" if cut.name in on_skin else _unconfirmed(cut, elements)
     edited = open_register(sources.register, strict=False) if sources.register else None
     rows, warnings = merged(rows, edited) if edited else (rows, [])
     warnings = [*list_warnings, *warnings]
     by_name = {cut.name: cut for cut in cuts}
-    final = [_settled(row, by_name.get(row.line), unconfirmed.get(row.line, "")) for row in rows]
+    final = [
+        _settled(row, by_name.get(row.line), unconfirmed.get(row.line, ""), faults.get(row.line, "")) for row in rows
+    ]
     by_name = {row.line: _as_registered(by_name[row.line], row) for row in final if row.line in by_name}
-    joined = joined_cuts(topo, final, by_name, sources.register)
-    stacked = stacked_elements(model.mesh)
+    joined: dict[str, WeldCut] = {}
+    for surface, of_own in zip(surfaces, rows_of(surfaces, final, on_skin, sources.register), strict=True):
+        if surface.skin is None:
+            joined |= joined_cuts(surface.topo, of_own, by_name, sources.register)
+        else:
+            first = {row.weld: row for row in reversed(of_own)}
+            cuts_on_skin = {row.line: _as_registered(on_skin[row.line], row) for row in of_own}
+            whole = joined_cuts(surface.topo, of_own, cuts_on_skin, sources.register)
+            joined |= {
+                name: _as_registered(joined_through(surface.skin, cut), first[name]) for name, cut in whole.items()
+            }
+    stacked = stacked_elements(model.mesh) if model.mesh.element.size else np.empty(0, np.int64)
     if stacked.size:
         warnings.append(
             Problem(
@@ -110,7 +151,8 @@ def list_welds(
     ----------
     units : unit system of the model
     out : register to write; None: write nothing
-    lines : table of the lines to write, as points in space for another mesh; None: write nothing
+    lines : table of the lines to write, as points in space for another mesh; None: write nothing. The register has the
+        names of these lines then, so that it goes with them
 
     Raises
     ------
@@ -122,26 +164,42 @@ def list_welds(
     found = find_welds(model, sources)
     if not found.rows:
         raise DataError(no_welds(mesh))
-    if out is not None:
-        if out.exists() and out != sources.register and not overwrite:
-            raise DataError(
-                Problem("foreign_file", str(out), "the file exists", "Give it as the register too, or use --force")
-            )
-        with replacing(out) as unfinished:  # it may be the edited register that was read
-            unfinished.write_text(register_text(found.rows), "utf-8")
+    rows, warnings = list(found.rows), list(found.warnings)
+    if out is not None and out.exists() and out != sources.register and not overwrite:
+        raise DataError(
+            Problem("foreign_file", str(out), "the file exists", "Give it as the register too, or use --force")
+        )
     if lines is not None:
-        lines = given_path(lines, "lines")
-        if lines.exists() and not overwrite:
-            raise DataError(Problem("foreign_file", str(lines), "the file exists", "Use --force to overwrite it"))
-        cuts = [cut for row in found.rows if row.status == "assess" and (cut := found.cuts.get(row.line))]
-        with replacing(lines) as unfinished:
-            unfinished.write_text(lines_text(cuts), "utf-8")
-    return replace(found, warnings=(*model.warnings, *found.warnings))
+        rows, of_lines = _written_lines(model, found, given_path(lines, "lines"), overwrite)
+        warnings += of_lines
+    if out is not None:
+        with replacing(out) as unfinished:  # it may be the edited register that was read
+            unfinished.write_text(register_text(rows), "utf-8")
+    return replace(found, warnings=(*model.warnings, *warnings))
+
+
+def _written_lines(
+    model: FeModel, found: FoundWelds, lines: Path, overwrite: bool
+) -> tuple[list[RegisterRow], list[Problem]]:
+    """Write the lines that are no candidates as points in space; the register under the names these give, warnings."""
+    if lines.exists() and not overwrite:
+        raise DataError(Problem("foreign_file", str(lines), "the file exists", "Use --force to overwrite it"))
+    kept = [row for row in found.rows if row.status != "candidate" and row.line in found.cuts]
+    if not kept:
+        raise DataError(Problem("no_welds", str(lines), "there are no lines but candidates", "Use --candidates"))
+    with replacing(lines) as unfinished:
+        unfinished.write_text(lines_text(found.cuts[row.line] for row in kept), "utf-8")
+    try:
+        again = find_welds(model, WeldSources(lines=lines))
+    except DataError as error:  # as of plates that lie on one another: told, with the lines to correct
+        return list(found.rows), list(error.problems)
+    return moved(kept, found.cuts, {row.line: row for row in again.rows}, again.cuts, lines)
 
 
 def no_welds(mesh: Path) -> Problem:
     """Refusal of a mesh that has nothing to list."""
-    what = "the mesh has no weld lines: no edge where three shells, two properties or two planes meet"
+    what = "the mesh has no weld lines: no edge where three shells, two properties or two planes meet, "
+    what += "none where faces of solids meet re-entrantly"
     return Problem("no_welds", str(mesh), what, "Mark the lines with --node-lists, --set or --marker")
 
 
@@ -172,10 +230,12 @@ def _unconfirmed(cut: WeldCut, elements: Mapping[int, str]) -> str:
     return "; ".join(some[0] + (f" (and {len(some) - 1} more)" if len(some) > 1 else "") for some in kinds.values())
 
 
-def _settled(row: RegisterRow, cut: WeldCut | None, unconfirmed: str) -> RegisterRow:
-    """Exclude what cannot be assessed: a thickness that has to be confirmed and is not, a line that makes no sense."""
+def _settled(row: RegisterRow, cut: WeldCut | None, unconfirmed: str, fault: str) -> RegisterRow:
+    """Exclude what cannot be assessed: no cut, a thickness to be confirmed that is not, a line that makes no sense."""
     if cut is None or row.status != "assess":
         return row
+    if fault:
+        return replace(row, status="excluded", reason=fault)
     if unconfirmed and not row.confirmed:
         return replace(
             row,
@@ -195,51 +255,6 @@ def _as_registered(cut: WeldCut, row: RegisterRow) -> WeldCut:
     if row.confirmed:
         line = replace(line, thickness=np.full(line.node.size, row.thickness))
     return replace(cut, line=line)
-
-
-def _marked_edges(
-    model: FeModel, topo: Topology, sources: WeldSources, lists: Mapping[str, list[int]]
-) -> Iterator[tuple[int, Key]]:
-    """Edges that the user marked as welds."""
-    edge_of = {(int(a), int(b)): k for k, (a, b) in enumerate(topo.ends)}
-    index = {int(n): k for k, n in enumerate(model.mesh.node)}
-
-    def edge(a: int, b: int) -> int | None:
-        ends = sorted((index.get(a, -1), index.get(b, -1)))
-        return edge_of.get((ends[0], ends[1]))
-
-    for number in sources.sets:
-        if number not in model.node_sets:
-            known = ", ".join(str(s) for s in sorted(model.node_sets)) or "none"
-            raise DataError(Problem("no_set", model.source, f"there is no SET {number}", f"Sets found: {known}"))
-        inside = np.isin(model.mesh.node[topo.ends], model.node_sets[number]).all(axis=1)
-        if not inside.any():
-            raise DataError(
-                Problem("empty_set", model.source, f"no shell edge lies in SET {number}", "Correct the set")
-            )
-        yield from ((int(k), (f"set{number}", ())) for k in np.flatnonzero(inside))
-    for name in sources.markers:
-        pairs = model.marker_edges.get(name.upper(), np.empty((0, 2), np.int64)).tolist()
-        on_edges = [k for a, b in pairs if (k := edge(a, b)) is not None]
-        if not on_edges:
-            found = ", ".join(sorted(model.marker_edges)) or "none"
-            raise DataError(
-                Problem(
-                    "no_marker", model.source, f"no {name.upper()} lies on a shell edge", f"Line cards found: {found}"
-                )
-            )
-        yield from ((k, (name.lower(), ())) for k in on_edges)
-    mids = set(model.mesh.node[np.unique(model.mesh.mid[model.mesh.mid >= 0])].tolist())
-    for weld, nodes in lists.items():
-        corners = [n for n in nodes if n not in mids]
-        for a, b in pairwise(corners):
-            k = edge(a, b)
-            if k is None:
-                where = f"{sources.node_lists}, weld {weld}"
-                raise DataError(
-                    Problem("no_edge", where, f"no shell edge joins the nodes {a} and {b}", "List neighbouring nodes")
-                )
-            yield k, (weld, ())
 
 
 def _node_lists(path: Path | None) -> tuple[dict[str, list[int]], list[Problem]]:

@@ -14,6 +14,8 @@ from typing import Any
 
 from fatigue.files.known_formats import (
     ADAMS,
+    ANSYS_TEXT,
+    CDB,
     DECK,
     EXPORT,
     HDF5,
@@ -142,7 +144,7 @@ FORMATS = (
         place=7,
         reads={
             COORDINATES: Reader("histories.text.read_text_history", "a text table", "CSV, text"),
-            CHANNELS: Reader("channels.table.read_text_channels", "a text table", "CSV, text"),
+            CHANNELS: Reader("channels.tables.table.read_text_channels", "a text table", "CSV, text"),
         },
         belongs=" if it holds them",
     ),
@@ -196,7 +198,7 @@ FORMATS = (
         place=6,
         reads={
             COORDINATES: Reader("histories.text.read_parquet_history", ".parquet"),
-            CHANNELS: Reader("channels.table.read_parquet_channels", ".parquet"),
+            CHANNELS: Reader("channels.tables.table.read_parquet_channels", ".parquet"),
         },
         signature=PARQUET,
         belongs=", or, if it is a table of a case, to case.toml",
@@ -208,7 +210,7 @@ FORMATS = (
         place=5,
         reads={
             COORDINATES: Reader("histories.mcf.read_mcf", ".mcf", ".mcf"),
-            CHANNELS: Reader("channels.table.read_mcf_channels", ".mcf", ".mcf"),
+            CHANNELS: Reader("channels.tables.table.read_mcf_channels", ".mcf", ".mcf"),
         },
         looks_like="histories.mcf.is_mcf",
     ),
@@ -285,7 +287,7 @@ FORMATS = (
         WORKBOOK.name,
         ending=".xlsx",
         place=8,
-        reads={CHANNELS: Reader("channels.workbook.read_workbook", ".xlsx", ".xlsx")},
+        reads={CHANNELS: Reader("channels.tables.workbook.read_workbook", ".xlsx", ".xlsx")},
         signature=WORKBOOK,
         extra=Extra("python_calamine", "Excel input"),
     ),
@@ -315,6 +317,24 @@ FORMATS = (
             MESH: Reader("export.read.read_export_model", "the text of the export script", "text of the export script"),
         },
         looks_like="export.layout.is_export",
+    ),
+    ForeignFormat(
+        "ansys",
+        ANSYS_TEXT.name,
+        ending="the text of the ANSYS macro",
+        place=4,
+        reads={
+            FORCES: Reader("ansys.forces.read_ansys_forces", "the text of the ANSYS macro", "text of the ANSYS macro")
+        },
+        looks_like="ansys.forces.is_ansys_export",
+    ),
+    ForeignFormat(
+        "cdb",
+        CDB.name,
+        ending=".cdb",
+        place=4,
+        reads={MESH: Reader("ansys.archive.read_archive", "an ANSYS .cdb", "ANSYS .cdb")},
+        looks_like="ansys.archive.is_archive",
     ),
 )
 """From the usual to the special: messages name them in this order, a file is recognised in the reverse one."""

@@ -1,6 +1,7 @@
 """Foreign files read: the format is recognised by the first bytes and not by the name, and names the reader."""
 
 from collections.abc import Callable, Collection
+from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -93,9 +94,25 @@ def read_coordinates(path: Path, columns: dict[str, int] | None, time_column: st
 
 
 def read_channels(path: Path) -> tuple[ChannelGroup, ...]:
-    """All channels of a file, in groups, from any format that holds them."""
+    """All channels of a file, in groups, from any format that holds them; those without a name by their position.
+
+    Raises
+    ------
+    DataError : no channel of numbers, whatever the reader refuses
+    """
     groups: tuple[ChannelGroup, ...] = _reader(path, CHANNELS)[1](path)
-    return groups
+    if not any(group.channels for group in groups):
+        what = "the file has no channels of numbers"
+        raise DataError(Problem("no_channels", str(path), what, "Export the channels again"))
+    return tuple(map(_with_names, groups))
+
+
+def _with_names(group: ChannelGroup) -> ChannelGroup:
+    """The group, its nameless channels called by their position, which is no number of a mode."""
+    if all(one.name for one in group.channels):
+        return group
+    named = [replace(one, name=one.name or f"channel {k}") for k, one in enumerate(group.channels, 1)]
+    return replace(group, channels=tuple(named))
 
 
 def _reader(path: Path, content: Content) -> tuple[ForeignFormat, Callable[..., Any]]:

@@ -1,9 +1,10 @@
-"""The mesh edges along a polyline: the shortest way from anchor to anchor within a corridor round it.
+"""The mesh edges along a polyline: the shortest way past a row of anchors, within a corridor round it.
 
-Anchors are the ends of the polyline, its corners, and places a few edges apart in between, each at the node nearest to
-it; so the way can neither take a short cut nor turn back. In the corridor are the edges that stay within the tolerance
-of the stretch between two anchors, by default half the local edge; an edge off the polyline counts as longer than it
-is.
+Anchors are the ends of the polyline, its corners, and places a few edges apart in between. The way passes near each in
+turn, so that it can neither take a short cut nor turn back; at which node is left open, so that it is not drawn to a
+plate beside the line whose nodes happen to lie nearer to an anchor. In the corridor are the edges that stay within the
+tolerance of the stretch between two anchors, by default half the local edge; an edge off the polyline counts as longer
+than it is.
 """
 
 import itertools
@@ -14,13 +15,14 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra
 
+from fatigue.weld.along.corridor import Corridor, corridor, tolerances
 from fatigue.weld.along.polyline import Polyline
 from fatigue.weld.detection import Topology
 
 CORNER_DEG = 20.0
 EDGES_APART = 4.0  # of anchors between corners
-OFF_LINE = 10.0  # by which an edge at the rim of the corridor counts longer
-LOCAL = 0.5  # of the local edge: the tolerance where none is given
+OFF_LINE = 10.0  # by which an edge at the rim of the corridor counts longer, and a way to the end of the polyline
+END_EDGES = 2.0  # by which the mesh may fall short of an end of the polyline
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -64,145 +66,143 @@ class Along:
     behind: float
 
 
-def edges_along(topo: Topology, line: Polyline, tolerance: float | None = None) -> Along | Gap:
+@dataclass(frozen=True, slots=True)
+class _Anchor:
+    """Length along the polyline [mm], and whether the way goes as near to it as it can: at ends and corners."""
+
+    s: float
+    fixed: bool
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Stage:
+    """Ways from the nodes near one anchor to those near the next: their costs, and the node before each."""
+
+    reach: NDArray[np.float64]
+    before: NDArray[np.int64]
+
+
+def edges_along(
+    topo: Topology, local: NDArray[np.float64], line: Polyline, tolerance: float | None = None
+) -> Along | Gap:
     """Edges of a mesh along a polyline, or the first place where there are none.
 
     Parameters
     ----------
+    local : (n,) mean edge at each node [mm], ``local_edges`` of the mesh
     tolerance : distance from the polyline at which an edge still follows it [mm]; None: half the local edge
     """
-    xyz, ends = topo.mesh.xyz, topo.ends
-    size = np.linalg.norm(xyz[ends[:, 1]] - xyz[ends[:, 0]], axis=1)
-    local = _local_edges(len(xyz), ends, size)
-    room = np.where(local > 0.0, LOCAL * local if tolerance is None else tolerance, -1.0)
-    near = _near(xyz, line, float(room.max(initial=0.0)))
-    distance, along = np.full(len(xyz), np.inf), np.zeros(len(xyz))
-    distance[near], along[near] = line.nearest(xyz[near])
-    inside = distance <= room
+    near = corridor(topo, local, line, tolerance)
     total = float(line.at[-1])
-    if not inside.any():
-        return _gap(topo, line, 0.0, total, room, local, -1)
-    anchors = _anchors(line, float(np.median(local[inside])))
-    chosen: list[int] = []
-    for s in anchors:
-        node = _nearest(xyz, inside, line.point(s))
-        if node is not None and (not chosen or node != chosen[-1]):
-            chosen.append(node)
-    if line.closed and chosen[0] != chosen[-1]:
-        chosen.append(chosen[0])
-    nodes, at = [chosen[0]], float(along[chosen[0]])
-    for begin, end in itertools.pairwise(chosen):
-        way = _way(topo, line, begin, end, along, room, size, inside)
-        if way is None:
-            reached, last = _reached(topo, begin, inside, along)
-            ahead = along[inside & (along > reached + 1e-9)]
-            following = float(ahead.min()) if ahead.size else total
-            return _gap(topo, line, reached, following - reached, room, local, last)
-        nodes += way[1:]
-        at = float(along[end])
-    if len(nodes) < 2:
-        return _gap(topo, line, 0.0, total, room, local, -1)
-    missing = [s for s in _probes(line, nodes, xyz, local) if _uncovered(line, s, nodes, xyz, room)]
-    if missing:
-        return _gap(topo, line, missing[0], missing[-1] - missing[0], room, local, -1)
-    edge_of = {(int(a), int(b)): k for k, (a, b) in enumerate(ends)}
-    edges = [edge_of[min(a, b), max(a, b)] for a, b in itertools.pairwise(nodes)]
-    before, behind = (0.0, 0.0) if line.closed else (float(along[nodes[0]]), total - at)
-    return Along(nodes, edges, float(distance[nodes].max()), before, behind)
+    if not near.edge.size:
+        return _gap(topo, line, 0.0, total, local, tolerance, -1)
+    anchors = _anchors(line, float(np.median(local[near.node])))
+    way = _way(near, line, anchors)
+    if line.closed and isinstance(way, list) and way[0] != way[-1]:
+        way = _way(near, line, anchors, seam=way[-1])
+    if not isinstance(way, list):
+        ahead = near.along[near.along > way[1] + 1e-9]
+        following = float(ahead.min()) if ahead.size else total
+        last = -1 if way[0] is None else int(near.node[way[0]])
+        return _gap(topo, line, way[1], following - way[1], local, tolerance, last)
+    if len(way) < 2:
+        return _gap(topo, line, 0.0, total, local, tolerance, -1)
+    nodes = near.node[way].tolist()
+    if missing := _uncovered(line, near, way):
+        return _gap(topo, line, missing[0], missing[-1] - missing[0], local, tolerance, -1)
+    edge_of = {(int(a), int(b)): int(k) for (a, b), k in zip(near.ends, near.edge, strict=True)}
+    edges = [edge_of[min(a, b), max(a, b)] for a, b in itertools.pairwise(way)]
+    before, behind = (0.0, 0.0) if line.closed else (float(near.along[way[0]]), total - float(near.along[way[-1]]))
+    return Along(nodes, edges, float(near.off[way].max()), before, behind)
 
 
-def _local_edges(count: int, ends: NDArray[np.int64], size: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Mean length of the edges at each node, 0 at a node without any."""
-    total, number = np.zeros(count), np.zeros(count)
-    for side in range(2):
-        np.add.at(total, ends[:, side], size)
-        np.add.at(number, ends[:, side], 1.0)
-    return np.divide(total, number, out=np.zeros(count), where=number > 0)
-
-
-def _near(xyz: NDArray[np.float64], line: Polyline, room: float) -> NDArray[np.int64]:
-    """Nodes in the box of the polyline, of which alone distances are computed."""
-    low, high = line.points.min(axis=0) - room, line.points.max(axis=0) + room
-    return np.flatnonzero(((xyz >= low) & (xyz <= high)).all(axis=1))
-
-
-def _anchors(line: Polyline, local: float) -> list[float]:
-    """Lengths along the polyline of its ends, its corners, and places in between."""
+def _anchors(line: Polyline, local: float) -> list[_Anchor]:
+    """Ends and corners of the polyline, and places in between."""
     at = line.at
     fixed = sorted({0.0, float(at[-1]), *(float(at[k]) for k in line.corners(CORNER_DEG))})
-    found = [fixed[0]]
+    found = [_Anchor(fixed[0], fixed=True)]
     for first, last in itertools.pairwise(fixed):
         pieces = max(1, int((last - first) / (EDGES_APART * local)))
-        found += np.linspace(first, last, pieces + 1)[1:].tolist()
+        found += [_Anchor(float(s), fixed=False) for s in np.linspace(first, last, pieces + 1)[1:-1]]
+        found.append(_Anchor(last, fixed=True))
     return found
 
 
-def _nearest(xyz: NDArray[np.float64], inside: NDArray[np.bool_], place: NDArray[np.float64]) -> int | None:
-    """Node of the corridor that is nearest to a place."""
-    nodes = np.flatnonzero(inside)
-    return int(nodes[np.linalg.norm(xyz[nodes] - place, axis=1).argmin()]) if nodes.size else None
-
-
 def _way(
-    topo: Topology,
-    line: Polyline,
-    begin: int,
-    end: int,
-    along: NDArray[np.float64],
-    room: NDArray[np.float64],
-    size: NDArray[np.float64],
-    inside: NDArray[np.bool_],
-) -> list[int] | None:
-    """Nodes of the shortest way between two nodes in the corridor round the stretch between them; None without any."""
-    xyz, ends = topo.mesh.xyz, topo.ends
-    total = float(line.at[-1])
-    first, last = float(along[begin]), float(along[end])
-    if line.closed and last <= first:
-        last = total
-    slack = float(room[[begin, end]].max())
-    stretch = line.between(max(0.0, first - slack), min(total, last + slack))
-    usable = np.flatnonzero(inside[ends].all(axis=1))
-    middle = xyz[ends[usable]].mean(axis=1)
-    off, _ = stretch.nearest(middle)
-    rim = room[ends[usable]].min(axis=1)
-    fits = off <= rim
-    usable, off, rim = usable[fits], off[fits], rim[fits]
-    cost = size[usable] * (1.0 + OFF_LINE * (off / rim) ** 2)
-    graph = csr_array((cost, (ends[usable, 0], ends[usable, 1])), shape=(len(xyz), len(xyz)))
-    reach, before = dijkstra(graph, directed=False, indices=begin, return_predecessors=True)
-    if not np.isfinite(reach[end]):
-        return None
-    way = [end]
-    while way[-1] != begin:
-        way.append(int(before[way[-1]]))
+    near: Corridor, line: Polyline, anchors: list[_Anchor], seam: int | None = None
+) -> list[int] | tuple[int | None, float]:
+    """Positions of the nodes of the shortest way past all anchors; where it ends, and how far along, without any.
+
+    ``seam`` is the node at which a closed line begins and ends.
+    """
+    nodes, cost = _candidates(near, line, anchors[0], seam)
+    if not nodes.size:
+        return None, 0.0
+    stages: list[_Stage] = []
+    for anchor, following in itertools.pairwise(anchors):
+        is_last = following is anchors[-1]
+        wanted, extra = _candidates(near, line, following, seam if is_last else None)
+        slack = float(near.longest[nodes].max())
+        stage = _stage(near, line.between(max(0.0, anchor.s - slack), following.s + slack), nodes, cost)
+        if not np.isfinite(stage.reach[wanted]).any():
+            return _reached(near, int(nodes[cost.argmin()]))
+        stages.append(stage)
+        there = np.isfinite(stage.reach[wanted])
+        nodes, cost = wanted[there], stage.reach[wanted[there]] + extra[there]
+    way = [int(nodes[cost.argmin()])]
+    for stage in reversed(stages):
+        while (node := int(stage.before[way[-1]])) != len(near.node):
+            way.append(node)
     return way[::-1]
 
 
-def _reached(topo: Topology, begin: int, inside: NDArray[np.bool_], along: NDArray[np.float64]) -> tuple[float, int]:
-    """How far along the polyline edges of the corridor lead from a node, and the node there."""
-    ends = topo.ends[inside[topo.ends].all(axis=1)]
-    count = len(inside)
-    graph = csr_array((np.ones(len(ends)), (ends[:, 0], ends[:, 1])), shape=(count, count))
+def _candidates(
+    near: Corridor, line: Polyline, anchor: _Anchor, seam: int | None
+) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """Nodes at which the way may pass an anchor, and what each costs."""
+    if seam is not None:
+        return np.array([seam]), np.zeros(1)
+    away = np.linalg.norm(near.xyz - line.point(anchor.s), axis=1)
+    reach = np.maximum((END_EDGES if anchor.fixed else 1.0) * near.longest, near.room)
+    nodes = np.flatnonzero((near.longest > 0.0) & (away <= reach))
+    return nodes, OFF_LINE * away[nodes] if anchor.fixed else np.zeros(nodes.size)
+
+
+def _stage(near: Corridor, stretch: Polyline, nodes: NDArray[np.int64], cost: NDArray[np.float64]) -> _Stage:
+    """Shortest ways from some nodes, each reached at a cost, by the edges that stay near a stretch of the polyline."""
+    off, _ = stretch.nearest(near.xyz[near.ends].mean(axis=1))
+    rim = near.room[near.ends].min(axis=1)
+    fits = off <= rim
+    weight = near.size[fits] * (1.0 + OFF_LINE * (off[fits] / rim[fits]) ** 2)
+    count = len(near.node)  # number of one node more, from which all begin
+    rows = np.concatenate([near.ends[fits, 0], np.full(nodes.size, count)])
+    columns = np.concatenate([near.ends[fits, 1], nodes])
+    graph = csr_array((np.concatenate([weight, cost + 1.0]), (rows, columns)), shape=(count + 1, count + 1))
+    reach, before = dijkstra(graph, directed=False, indices=count, return_predecessors=True)
+    return _Stage(reach[:count] - 1.0, before[:count])
+
+
+def _reached(near: Corridor, begin: int) -> tuple[int, float]:
+    """The node farthest along the polyline to which edges of the corridor lead, and how far that is."""
+    count = len(near.node)
+    graph = csr_array((np.ones(len(near.ends)), (near.ends[:, 0], near.ends[:, 1])), shape=(count, count))
     reach = np.isfinite(dijkstra(graph, directed=False, indices=begin, unweighted=True))
     nodes = np.flatnonzero(reach)
-    last = int(nodes[along[nodes].argmax()])
-    return float(along[last]), last
+    last = int(nodes[near.along[nodes].argmax()])
+    return last, float(near.along[last])
 
 
-def _probes(
-    line: Polyline, nodes: list[int], xyz: NDArray[np.float64], local: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Lengths along the polyline, half an edge apart, at which an edge has to be near; the ends may stand out."""
-    step = 0.5 * float(np.median(local[nodes]))
-    _, along = line.nearest(xyz[[nodes[0], nodes[-1]]])
-    first, last = (0.0, float(line.at[-1])) if line.closed else (float(along.min()), float(along.max()))
-    return np.arange(first, last, step)
-
-
-def _uncovered(line: Polyline, s: float, nodes: list[int], xyz: NDArray[np.float64], room: NDArray[np.float64]) -> bool:
-    """Whether the edges found stay away from a place of the polyline."""
-    off, _ = Polyline(xyz[nodes]).nearest(line.point(s)[None])
-    return bool(off[0] > 2.0 * room[nodes].max())
+def _uncovered(line: Polyline, near: Corridor, way: list[int]) -> list[float]:
+    """Lengths along the polyline, half an edge apart, from which the way stays off; the ends may stand out."""
+    chain = near.xyz[way]
+    step = 0.5 * float(np.median(np.linalg.norm(np.diff(chain, axis=0), axis=1)))
+    at = near.along[[way[0], way[-1]]]
+    first, last = (0.0, float(line.at[-1])) if line.closed else (float(at.min()), float(at.max()))
+    probes = np.arange(first, last, step)
+    if not probes.size:
+        return []
+    off, _ = Polyline(chain).nearest(line.places(probes))
+    return [float(s) for s in probes[off > 2.0 * near.room[way].max()]]
 
 
 def _gap(
@@ -210,8 +210,8 @@ def _gap(
     line: Polyline,
     s: float,
     length: float,
-    room: NDArray[np.float64],
     local: NDArray[np.float64],
+    tolerance: float | None,
     last: int,
 ) -> Gap:
     xyz = topo.mesh.xyz
@@ -219,7 +219,7 @@ def _gap(
     used = np.flatnonzero(local > 0.0)
     away = np.linalg.norm(xyz[used] - place, axis=1)
     nearest = int(used[away.argmin()])
-    twins = (
-        int((np.linalg.norm(xyz[used] - xyz[last if last >= 0 else nearest], axis=1) < 1e-3 * local[nearest]).sum()) - 1
-    )
-    return Gap(place, s, length, float(away.min()), float(room[nearest]), twins)
+    room = float(tolerances(local, tolerance)[nearest])
+    end = last if last >= 0 else nearest
+    twins = int((np.linalg.norm(xyz[used] - xyz[end], axis=1) < 1e-3 * local[nearest]).sum()) - 1
+    return Gap(place, s, length, float(away.min()), room, twins)

@@ -34,7 +34,20 @@ class Polyline:
 
     def point(self, s: float) -> Vectors:
         """Place at a length along the polyline, (3,)."""
-        return np.array([np.interp(s, self.at, self.chain[:, axis]) for axis in range(3)])
+        return np.asarray(self.places(np.array([s]))[0])
+
+    def places(self, s: NDArray[np.float64]) -> Vectors:
+        """Places at some lengths along the polyline, (n, 3)."""
+        at, chain = self.at, self.chain
+        return np.column_stack([np.interp(s, at, chain[:, axis]) for axis in range(3)])
+
+    def turned_deg(self, first: float, last: float) -> float:
+        """Angle between the directions of the polyline at two lengths along it [deg]."""
+        steps = np.diff(self.chain, axis=0)
+        at = np.clip(np.searchsorted(self.at, [first, last], side="right") - 1, 0, len(steps) - 1)
+        a, b = steps[at]
+        cosine = float(a @ b) / max(float(np.linalg.norm(a) * np.linalg.norm(b)), 1e-300)
+        return float(np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0))))
 
     def between(self, first: float, last: float) -> "Polyline":
         """Stretch between two lengths along an open polyline, or along the chain of a closed one."""

@@ -4,17 +4,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.weld.along.polyline import Polyline
-from fatigue.weld.line import WeldLine
 
 NEAR = 0.05  # of the mean edge: no node is further from the points
 
 
-def thinned(line: WeldLine) -> Polyline:
-    """Polyline of some of the nodes of a line, mid-side nodes among them where edges are curved (Douglas, Peucker)."""
-    xyz = line.xyz
-    around = np.concatenate([xyz, xyz[:1]]) if line.closed else xyz
+def thinned(xyz: NDArray[np.float64], *, closed: bool) -> Polyline:
+    """Polyline of some of the nodes (n, 3) of a line, mid-side nodes among them on curved edges (Douglas, Peucker)."""
+    around = np.concatenate([xyz, xyz[:1]]) if closed else xyz
     edge = float(np.linalg.norm(np.diff(around, axis=0), axis=1).mean())
-    if not line.closed:
+    if not closed:
         return Polyline(xyz[_kept(xyz, NEAR * edge)])
     half = int(np.linalg.norm(xyz - xyz[0], axis=1).argmax())  # two stretches that are no point
     first, second = _kept(around[: half + 1], NEAR * edge), _kept(around[half:], NEAR * edge)

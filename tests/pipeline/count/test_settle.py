@@ -145,7 +145,8 @@ def test_cycles_of_every_weld_are_kept(results):
 
 def test_large_jobs_are_screened_unasked_and_keep_the_cycles_that_matter(results, tmp_path, monkeypatch):
     """Above the limit: the same register to single precision, cycles of welds from a tenth of the limit on."""
-    monkeypatch.setattr("fatigue.pipeline.mission.events.DOUBLE_PRECISION_SAMPLES", 0.0)
+    monkeypatch.setattr("fatigue.pipeline.mission.precision.SINGLE_FROM", 0.0)
+    monkeypatch.setattr("fatigue.pipeline.mission.precision.LARGE_FROM", 0.0)
     case = load_case(results / "case" / "case.toml")
     assess(case, tmp_path / "screened", report=False)
     assess(case, tmp_path / "exact", share=0.0, report=False)

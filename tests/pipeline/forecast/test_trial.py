@@ -57,7 +57,7 @@ def test_more_stations_take_as_much_more(tmp_path):
 
 def test_large_jobs_are_screened_and_both_are_foretold(tmp_path, monkeypatch):
     """Above the limit bounds settle what they can; all points counted is another number."""
-    monkeypatch.setattr("fatigue.pipeline.forecast.trial.DOUBLE_PRECISION_SAMPLES", 0.0)
+    monkeypatch.setattr("fatigue.pipeline.mission.precision.LARGE_FROM", 0.0)
     time = needed(small_case(), tmp_path)
     assert time.screened
     assert time.counting > 0.0

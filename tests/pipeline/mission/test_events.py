@@ -75,7 +75,7 @@ def test_records_on_disk_bring_the_same_as_records_in_memory(tmp_path, monkeypat
     case.counting["upsample"] = upsample
     body = body_of(case, tmp_path / "case")
     groups, (plan, _) = weld_groups(body, tmp_path / "forces"), mission_plan(body)
-    monkeypatch.setattr(events, "DOUBLE_PRECISION_SAMPLES", 0.0)
+    monkeypatch.setattr("fatigue.pipeline.mission.precision.SINGLE_FROM", 0.0)
     held = event_loads(groups, plan, tmp_path / "histories")
     monkeypatch.setattr(events, "HELD_BYTES", 0.0)
     monkeypatch.setattr("fatigue.pipeline.mission.event_load.HELD_SINGLE", 0.0)
@@ -108,7 +108,7 @@ def test_the_number_of_threads_does_not_matter(tmp_path, monkeypatch, single):
     """Events prepared side by side are the same, byte for byte, as one after the other."""
     body = body_of(small_case(), tmp_path / "case")
     groups, (plan, _) = weld_groups(body, tmp_path / "forces"), mission_plan(body, threads=1)
-    monkeypatch.setattr(events, "DOUBLE_PRECISION_SAMPLES", 0.0 if single else np.inf)
+    monkeypatch.setattr("fatigue.pipeline.mission.precision.SINGLE_FROM", 0.0 if single else np.inf)
     one, two, three = (pickle.dumps(event_loads(groups, plan, tmp_path / "histories", n)) for n in (1, 2, 3))
     assert one == two == three
     assert mission_plan(body, threads=3)[0] == plan

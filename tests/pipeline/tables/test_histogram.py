@@ -19,7 +19,6 @@ from fatigue.life.counting.rainflow import rainflow
 from fatigue.life.counting.record import CountedRecord
 from fatigue.life.curves import catalogue, damage_law
 from fatigue.life.rule import CycleRule
-from fatigue.pipeline.mission import events
 from fatigue.pipeline.tables import histogram
 from fatigue.results import read_provenance, read_table, strangers
 from tests import naive
@@ -212,7 +211,7 @@ def test_any_number_of_points_at_a_time_is_the_same(tmp_path, monkeypatch, point
 
 def test_screened_points_have_none_and_single_precision_is_counted_in_double(tmp_path, monkeypatch):
     """Only counted points; sums agree with the damage counted in single precision to 1e-6."""
-    monkeypatch.setattr(events, "DOUBLE_PRECISION_SAMPLES", 0.0)
+    monkeypatch.setattr("fatigue.pipeline.mission.precision.SINGLE_FROM", 0.0)
     case = small_case(pairs=2)
     case.mission["target_km"] = 1.0
     folder = assessed(tmp_path, case, share=0.5, proves_worst=False, histogram="all")

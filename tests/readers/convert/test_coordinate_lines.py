@@ -4,11 +4,15 @@ import numpy as np
 import pytest
 
 from fatigue.errors import DataError
-from fatigue.readers.convert.coordinate_lines import lines_text
 from fatigue.readers.convert.options import WeldSources
 from fatigue.readers.convert.weld_lines import find_welds
+from fatigue.readers.convert.written_lines.points import lines_text
 from fatigue.readers.foreign.fe.model import FeModel, Section, Shell, shell_mesh
 from fatigue.readers.neutral.register.register_file import register_text
+from fatigue.weld.along.named import named_along
+from fatigue.weld.along.polyline import Polyline
+from fatigue.weld.cuts import WeldCut
+from fatigue.weld.line import WeldLine
 from tests.shell_fe import grid, joined
 
 HEAD = "line,point,x_mm,y_mm,z_mm\n"
@@ -154,6 +158,8 @@ def test_written_lines_find_the_same_welds(tmp_path):
         (HEAD + "a,1,30,40,0\na,2,60,52,0\n", "no_edges_along", "no mesh edges follow it from"),
         (HEAD + "a,1,30,40,300\na,2,90,40,300\n", "no_edges_along", "the nearest node is 260 mm away"),
         (HEAD + "a,1,0.03,0.04,0\na,2,0.09,0.04,0\n", "no_edges_along", "in mm"),
+        (HEAD + "a,1,30,40,0\na,2,1090,40,0\n", "no_edges_along", "(120, 40, 0) mm on, 90 mm along it, for 970 mm"),
+        (HEAD + "a,1,30,40,0\na,2,90,40,0\na,3,60,40,0\n", "line_turns_back", "twice. Number its points"),
         (HEAD + "a,1,30,40,0\n", "short_line", "1 point"),
         (HEAD + "a,1,30,40,0\na,2,30,40,0\n", "short_line", "that differ"),
         (HEAD + "a,1,30,40,0\na,1,90,40,0\n", "duplicate_row", "a"),
@@ -187,5 +193,71 @@ def test_nodes_that_are_not_merged_are_told(tmp_path):
 
 def test_an_end_beyond_the_mesh_is_told(tmp_path):
     """The line is as long as the mesh, and a note says by how much it is shorter than its points."""
-    found = found_on(MESHES["fine"], tmp_path, HEAD + "bracket,1,30,40,0\nbracket,2,126,40,0\n")
+    found = found_on(MESHES["fine"], tmp_path, HEAD + "bracket,1,30,40,0\nbracket,2,124,40,0\n")
     assert [problem.code for problem in found.warnings] == ["line_end_off"]
+
+
+@pytest.mark.parametrize("shift", [0.0, 5.0, 10.0, 13.0, 17.0])
+def test_a_plate_close_by_draws_no_line_to_it(tmp_path, shift):
+    """The way stays on the plate that the points lie on, wherever the nodes of the other are."""
+    lower = grid(np.linspace(0, 120, 7), np.linspace(0, 80, 5))
+    xy, quads = grid(np.linspace(0, 120, 7) + shift, np.linspace(0, 80, 5))
+    xy = np.column_stack([xy[:, :2], np.full(len(xy), 4.0)])
+    found = found_on(model(lower, (xy, quads), pids=(1, 2)), tmp_path, HEAD + "a,1,0,40,0\na,2,95,40,0\n")
+    assert {cut.pid for cut in found.cuts.values()} == {1}
+    np.testing.assert_allclose(found.cuts["a:p1a"].line.xyz[:, 2], 0.0)
+
+
+def test_edges_that_turn_where_the_line_does_not_are_told(tmp_path):
+    """As where points run from one row of nodes to the next."""
+    text = HEAD.strip() + ",tolerance_mm\na,1,0,40,0,6\na,2,120,50,0,6\n"
+    (problem,) = (one for one in found_on(MESHES["coarse"], tmp_path, text).warnings if one.code == "line_turns")
+    assert "turn by 90 deg at node" in problem.what
+
+
+def test_a_seam_of_nodes_that_are_not_merged_is_told(tmp_path):
+    """Only one of the plates there has the line."""
+    left = grid(np.linspace(0, 60, 7), np.linspace(0, 40, 5))
+    right = grid(np.linspace(60, 120, 7), np.linspace(0, 40, 5))
+    quads = np.concatenate([left[1], right[1] + len(left[0])])
+    grids = {k + 1: place for k, place in enumerate(np.concatenate([left[0], right[0]]))}
+    shells = [Shell(k + 1, 1, tuple((q + 1).tolist())) for k, q in enumerate(quads)]
+    mesh = shell_mesh("model", grids, shells, {1: Section(8.0)})
+    apart = FeModel("model", mesh, np.zeros(0, np.int64), np.zeros((0, 3, 3)))
+    (problem,) = found_on(apart, tmp_path, HEAD + "seam,1,60,0,0\nseam,2,60,40,0\n").warnings
+    assert problem.code == "nodes_apart"
+    assert problem.what.startswith("at 5 of its nodes lie others that are not merged")
+
+
+@pytest.mark.parametrize("seed", [0, 3, 5, 8])
+def test_the_name_has_the_property_where_the_line_begins(tmp_path, seed):
+    """A plate that goes on with another property is one side, however the nodes are numbered."""
+    rows = np.linspace(0, 40, 5)
+    parts = grid(np.linspace(0, 50, 6), rows), grid(np.linspace(50, 100, 6), rows)
+    found = found_on(model(*parts, pids=(1, 2), seed=seed), tmp_path, HEAD + "a,1,0,20,0\na,2,100,20,0\n")
+    assert [row.line for row in found.rows] == ["a:p1a", "a:p1b"]
+    back = found_on(model(*parts, pids=(1, 2), seed=seed), tmp_path, HEAD + "a,1,100,20,0\na,2,0,20,0\n")
+    assert [row.line for row in back.rows] == ["a:p2a", "a:p2b"]
+
+
+@pytest.mark.parametrize("lean_deg", [0.0, 2.9, 45.0, 87.1, 90.0, 92.9, 135.0, 178.0])
+def test_letters_of_sides_do_not_change_with_small_turns(tmp_path, lean_deg):
+    """A side that a mesh sees turned by a degree keeps its letter."""
+    ahead = np.array([np.cos(np.radians(lean_deg)), np.sin(np.radians(lean_deg)), 0.0])
+    line = Polyline(np.array([0.0 * ahead, 100.0 * ahead]))
+    firsts = set()
+    for turn, roll in np.radians([(x, y) for x in (-5, 0, 5) for y in (-5, 0, 5)]):
+        level = np.array([-np.sin(np.radians(lean_deg) + turn), np.cos(np.radians(lean_deg) + turn), 0.0])
+        across = np.cos(roll) * level + np.sin(roll) * np.array([0.0, 0.0, 1.0])
+        sides = named_along([side_of(line, s * across) for s in (1, -1)], line, "a", MESHES["coarse"].mesh)
+        firsts.add(bool(min(sides, key=lambda cut: cut.name).line.outward[0] @ across > 0))
+    assert len(firsts) == 1
+
+
+def side_of(line, across):
+    """A cut of a polyline that lies in a direction across it."""
+    two = np.repeat(np.asarray(across)[None], 2, axis=0)
+    own = WeldLine(
+        "", 1, np.array([1, 2]), np.array([1, 2]), line.points, np.ones(2), two, -two, np.zeros(2, bool), False, None
+    )
+    return WeldCut("", "a", (), 1, own, np.array([1]))

@@ -56,14 +56,18 @@ def test_a_format_that_is_read_is_known_where_it_is_not(form):
 
 def test_what_messages_say_of_the_formats():
     """The usual one first, all of them in one list."""
-    assert formats_called(FORCES) == "an .op2, an MSC .h5 or a punch file"
-    assert formats_called(MESH) == "the deck (.bdf, .dat) or the MSC .h5"
-    assert formats_called(STRESSES) == "an .op2 or an MSC .h5"
+    assert formats_called(FORCES) == (
+        "an .op2, an MSC .h5, a punch file, the text of the export script or the text of the ANSYS macro"
+    )
+    assert formats_called(MESH) == (
+        "the deck (.bdf, .dat), the MSC .h5, an Abaqus .inp, the text of the export script or an ANSYS .cdb"
+    )
+    assert formats_called(STRESSES) == ("an .op2 or an MSC .h5")
     assert formats_called(COORDINATES) == (
-        "a text table, punch (SDISPLACEMENT), .parquet, .mcf, an RPC III .rsp, .uff, .mf4, .tdms, .npy, .npz, .mat, "
-        "MATLAB 7.3, .xlsx or Adams .res (XML)"
+        "a text table, punch (SDISPLACEMENT), .parquet, .mcf, an RPC III .rsp, .uff, .mf4, .tdms, .npy, .npz, "
+        ".mat, MATLAB 7.3, .xlsx or Adams .res (XML)"
     )
     assert all_formats() == (
-        ".op2, MSC .h5, .pch, .bdf, .mcf, .parquet, a text table, .npy, .npz, .mat, MATLAB 7.3, .xlsx, .res, "
-        ".rsp, .uff, .mf4 or .tdms"
+        ".op2, MSC .h5, .pch, .bdf, .inp, the text of the export script, the text of the ANSYS macro, .cdb, .mcf,"
+        " .parquet, a text table, .npy, .npz, .mat, MATLAB 7.3, .xlsx, .res, .rsp, .uff, .mf4 or .tdms"
     )

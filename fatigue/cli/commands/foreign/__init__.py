@@ -1,5 +1,5 @@
 """Commands about files of other programs, one file for each; none knows another."""
 
-from fatigue.cli.commands.foreign import channels
+from fatigue.cli.commands.foreign import channels, request
 
-__all__ = ["channels"]
+__all__ = ["channels", "request"]

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.readers.convert.audit.row import AuditRow
-from fatigue.readers.convert.audit.shell_rows import elastic_modes, shell_rows, without_drilling
+from fatigue.readers.convert.audit.shell_rows import elastic_modes, kind_in_words, plate_rows, without_drilling
 from fatigue.readers.foreign.fe.model import FeModel
 from fatigue.readers.foreign.fe.results import REQUEST, FeResults
 from fatigue.weld.element_forces import BALANCE_RED, ElementForces, balance
@@ -26,8 +26,8 @@ def _element_forces(
 
 
 def _worst_balance(results: FeResults, model: FeModel, force: NDArray[np.floating]) -> tuple[float, int, int, int]:
-    """Largest residual of any shell and mode, its element and mode, and the number of shells checked."""
-    rows = shell_rows(results, model)
+    """Largest residual of any shell or solid and mode, its element and mode, and the number of elements checked."""
+    rows = plate_rows(results, model)
     if not rows.any():
         return np.nan, 0, 0, 0
     elastic = elastic_modes(results)
@@ -43,12 +43,13 @@ def _worst_balance(results: FeResults, model: FeModel, force: NDArray[np.floatin
 def balance_row(results: FeResults, model: FeModel, force: NDArray[np.floating]) -> tuple[AuditRow, bool]:
     """Row on the worst shell; and whether only the moments about the shells' normals are out of balance."""
     worst, element, mode, count = _worst_balance(results, model, force)
+    kind = kind_in_words(model)
     if not count:
         return AuditRow(
-            "element balance", "red", None, "no shell of the mesh has forces at all its nodes", REQUEST
+            "element balance", "red", None, f"no {kind} of the mesh has forces at all its nodes", REQUEST
         ), False
     where = f"element {element} in {results.called(mode)}"
-    finding = f"worst of {count} shells: {where}, {worst:.2g} of its largest force or moment"
+    finding = f"worst of {count} {kind}s: {where}, {worst:.2g} of its largest force or moment"
     if worst <= BALANCE_GREEN:
         return AuditRow("element balance", "green", worst, finding), False
     rest = _worst_balance(results, model, without_drilling(force, results, model))[0]

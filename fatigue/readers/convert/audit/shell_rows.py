@@ -1,4 +1,4 @@
-"""Which force rows belong to the shells of a mesh, and what a solver's drilling springs leave in them.
+"""Which force rows belong to the shells and solids of a mesh, and what a solver's drilling springs leave in them.
 
 A flat shell has no stiffness about its own normal; solvers add a spring there (PARAM,K6ROT). Where the spring ties the
 rotation to the ground instead of to the shell's own plane, as MYSTRAN's does, the shells are out of balance by just
@@ -23,14 +23,53 @@ _CORNERS = {"HEXA": 8, "PENTA": 6, "PYRAM": 5, "TETRA": 4, "SHEAR": 4}
 def shell_rows(results: FeResults, model: FeModel) -> NDArray[np.bool_]:
     """Rows of shells of the mesh that have all their nodes in the file, (r,)."""
     mesh = model.mesh
-    around = np.concatenate([mesh.corner, mesh.mid], axis=1)
-    at, is_own = own_rows(results, model)
-    rows = np.bincount(at[is_own], minlength=mesh.element.size)
-    return np.asarray(is_own & (rows == (around != NONE).sum(axis=1))[at])
+    return _of_elements(results, mesh.element, mesh.node, np.concatenate([mesh.corner, mesh.mid], axis=1))[2]
+
+
+def kind_in_words(model: FeModel) -> str:
+    """What the plates of a model are made of: shell, solid, or element where it has both."""
+    return "shell" if model.solids is None else "element" if model.mesh.element.size else "solid"
+
+
+def plate_rows(results: FeResults, model: FeModel) -> NDArray[np.bool_]:
+    """Rows of shells and solids of the mesh that have all their nodes in the file, (r,)."""
+    return shell_rows(results, model) | _solid_rows(results, model)[1]
+
+
+def own_plate_rows(results: FeResults, model: FeModel) -> NDArray[np.bool_]:
+    """Rows that belong to a shell or a solid of the mesh and one of its nodes, (r,)."""
+    return own_rows(results, model)[1] | _solid_rows(results, model)[0]
+
+
+def _solid_rows(results: FeResults, model: FeModel) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """Rows that belong to a solid of the mesh and one of its nodes, and those among them of whole solids, (r,) each.
+
+    A parabolic solid is whole with its corners and mid-side nodes.
+    """
+    solids = model.solids
+    if solids is None:
+        return np.zeros(results.node.size, bool), np.zeros(results.node.size, bool)
+    return _of_elements(results, solids.element, solids.node, np.concatenate([solids.corner, solids.mid], axis=1))[1:]
+
+
+def _of_elements(
+    results: FeResults, element: NDArray[np.int64], ids: NDArray[np.int64], around: NDArray[np.int64]
+) -> tuple[NDArray[np.int64], NDArray[np.bool_], NDArray[np.bool_]]:
+    """Position of each row's element among elements of nodes ``around``, (e, k); whether it is its own, and whole."""
+    if not element.size:
+        none = np.zeros(results.node.size, bool)
+        return np.zeros(results.node.size, np.int64), none, none
+    at = np.minimum(np.searchsorted(element, results.element), element.size - 1)
+    own = results.of_element & (element[at] == results.element)
+    rows = np.flatnonzero(own)
+    node = np.where(around[at[rows]] == NONE, 0, ids[around[at[rows]]])
+    own[rows] = (node == results.node[rows, None]).any(axis=1)
+    count = np.bincount(at[own], minlength=element.size)
+    return at, own, np.asarray(own & (count == (around != NONE).sum(axis=1))[at])
 
 
 def whole_rows(results: FeResults, model: FeModel) -> NDArray[np.bool_]:
-    """Rows of elements that have forces at all their nodes, (r,): shells, and others as far as their kind tells.
+    """Rows of elements that have forces at all their nodes, (r,): plates, and others as far as their kind tells.
 
     Rigid elements, of any number of nodes, do no work and are left out.
     """
@@ -39,8 +78,10 @@ def whole_rows(results: FeResults, model: FeModel) -> NDArray[np.bool_]:
     kinds, kind = np.unique(results.kind[of_element], return_inverse=True)
     least = np.array([np.inf if k.startswith("RB") else _CORNERS.get(k, 2) for k in kinds.tolist()])
     others = of_element & ~np.isin(results.element, model.mesh.element)
+    if model.solids is not None:
+        others &= ~np.isin(results.element, model.solids.element)
     others[of_element] &= count[element.ravel()] >= least[kind.ravel()]
-    return shell_rows(results, model) | others
+    return plate_rows(results, model) | others
 
 
 def elastic_modes(results: FeResults) -> NDArray[np.bool_]:
@@ -56,11 +97,7 @@ def elastic_modes(results: FeResults) -> NDArray[np.bool_]:
 def own_rows(results: FeResults, model: FeModel) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
     """Position in the mesh of each row's element, and whether the row belongs to a shell and one of its nodes."""
     mesh = model.mesh
-    around = np.concatenate([mesh.corner, mesh.mid], axis=1)
-    at = np.minimum(np.searchsorted(mesh.element, results.element), mesh.element.size - 1)
-    node = np.where(around[at] == NONE, 0, mesh.node[around[at]])
-    at_own_node = (node == results.node[:, None]).any(axis=1)
-    return at, np.asarray(results.of_element & (mesh.element[at] == results.element) & at_own_node)
+    return _of_elements(results, mesh.element, mesh.node, np.concatenate([mesh.corner, mesh.mid], axis=1))[:2]
 
 
 def without_drilling(force: NDArray[np.floating], results: FeResults, model: FeModel) -> NDArray[np.floating]:

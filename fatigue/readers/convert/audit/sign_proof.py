@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.readers.convert.audit.row import AuditRow
-from fatigue.readers.convert.audit.shell_rows import shell_rows, whole_rows
+from fatigue.readers.convert.audit.shell_rows import plate_rows, whole_rows
 from fatigue.readers.foreign.fe.model import FeModel
 from fatigue.readers.foreign.fe.results import REQUEST, FeResults
 from fatigue.readers.neutral.body.modes import LOWEST_HZ
@@ -55,7 +55,7 @@ class _Works(NamedTuple):
 def sign_row(results: FeResults, model: FeModel, stated: Convention | None) -> tuple[AuditRow, Convention | None]:
     """Row on the sign, proven beside stated; and the convention that holds, None if nothing decides it."""
     value, found, finding, contradiction, odd = prove_sign(
-        results, whole_rows(results, model), shell_rows(results, model)
+        results, whole_rows(results, model), plate_rows(results, model)
     )
     if found is None:
         remedy = "State the sign convention; prove it with the one-element tension patch" if stated is None else REQUEST

@@ -11,10 +11,11 @@ from fatigue.errors import DataError, Problem, refuse
 from fatigue.readers.foreign.abaqus.keywords import Data, Keyword, keywords
 from fatigue.readers.foreign.abaqus.placed import Placed, placed
 from fatigue.readers.foreign.export.elements import abaqus_form, element_of
-from fatigue.readers.foreign.fe.model import FeModel, Section, Shell, Solid, shell_mesh, solid_mesh
+from fatigue.readers.foreign.fe.model import FeModel, Section, Shell, Solid, others_left_out, shell_mesh, solid_mesh
 
 _GENERATED = frozenset({"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY"})
 _MOST_PROBLEMS = 20
+_HIGHEST = 1_000_000_000  # labels of Abaqus are lower
 _REFERENCE = {"SPOS": 0.5, "SNEG": -0.5}
 
 
@@ -26,6 +27,7 @@ class _Part:
     nodes: dict[int, NDArray[np.float64]] = field(default_factory=dict)
     elements: dict[int, tuple[str, list[int], str]] = field(default_factory=dict)
     sets: dict[str, set[int]] = field(default_factory=dict)
+    ranges: dict[str, list[range]] = field(default_factory=dict)  # of GENERATE, never listed: a slip may be huge
     sections: list[Keyword] = field(default_factory=list)
 
 
@@ -50,7 +52,7 @@ def read_inp(path: Path) -> FeModel:
     sections: dict[int, Section] = {}
     unconfirmed: dict[int, str] = {}
     others: dict[str, int] = {}
-    for part, place in _placed_parts(path, parts, instances):
+    for part, place in _placed_parts(parts, instances, problems):
         _refuse_twice(path, part, grids.keys(), [*shells, *solids])
         grids |= {number: place.of(xyz) for number, xyz in part.nodes.items()}
         of_element = _sections_of(part, sections, unconfirmed)
@@ -76,6 +78,7 @@ def read_inp(path: Path) -> FeModel:
         frame=np.zeros((0, 3, 3)),
         unconfirmed_sections=unconfirmed,
         other_cards=others,
+        warnings=others_left_out(str(path), others),
         included=included,
         solids=solid_mesh(str(path), grids, solids, shells),
     )
@@ -117,15 +120,22 @@ def _take_nodes(word: Keyword, part: _Part, problems: list[Problem]) -> None:
         values = _numbers(row, problems)
         if values is None:
             continue
-        if not 1 <= len(values) <= 7 or not values[0].is_integer():
+        if not 1 <= len(values) <= 7 or not _is_label(values[0]):
             problems.append(_bad(row, f"a node of {len(values)} numbers"))
             continue
-        part.nodes[int(values[0])] = np.array([*values[1:4], 0.0, 0.0, 0.0][:3])
+        number, xyz = int(values[0]), np.array([*values[1:4], 0.0, 0.0, 0.0][:3])
+        if number in part.nodes and not np.array_equal(part.nodes[number], xyz):
+            what = f"node {number} is given twice, at two places"
+            problems.append(Problem("node_twice", f"{row[0]}, line {row[1]}", what, "Give every node its own id"))
+        part.nodes[number] = xyz
 
 
 def _take_elements(word: Keyword, part: _Part, problems: list[Problem]) -> None:
     """Elements of one type; a row of nodes goes on in the next line until it is as long as the type wants."""
     kind = word.get("TYPE")
+    if not kind:
+        problems.append(Problem("inp_damaged", word.where, "*ELEMENT names no TYPE", "Write the deck again"))
+        return
     form = abaqus_form(kind)
     own = part.sets.setdefault(word.get("ELSET").upper(), set()) if word.get("ELSET") else set()
     due = 1 + form.corners + len(form.mids) if form else 0
@@ -135,7 +145,7 @@ def _take_elements(word: Keyword, part: _Part, problems: list[Problem]) -> None:
         values = _numbers((line[0], line[1], [text for text in line[2] if text]), problems)
         if values is None:
             continue
-        if any(not value.is_integer() for value in values):
+        if not all(_is_label(value) for value in values):
             problems.append(_bad(line, "an element with a number that is no id"))
             continue
         first = first or line
@@ -161,19 +171,22 @@ def _put_element(kind: str, row: list[int], first: Data, part: _Part, own: set[i
 def _take_set(word: Keyword, part: _Part, problems: list[Problem]) -> None:
     """Elements of a set: ids, names of sets before it, or ranges."""
     found = part.sets.setdefault(word.get("ELSET").upper(), set())
+    ranges = part.ranges.setdefault(word.get("ELSET").upper(), [])
     for row in word.data:
         texts = [text for text in row[2] if text]
         if "GENERATE" in word.parameters:
             values = _numbers((row[0], row[1], texts), problems)
             if values is not None and len(values) >= 2:
                 first, last, step = (*map(int, values), 1)[:3]
-                found |= set(range(first, last + 1, max(step, 1)))
+                ranges.append(range(first, last + 1, max(step, 1)))
             continue
         for text in texts:
             if text.lstrip("+-").isdecimal():
                 found.add(int(text))
             else:
-                found |= part.sets.get(text.strip("\"'").upper(), set())
+                name = text.strip("\"'").upper()
+                found |= part.sets.get(name, set())
+                ranges += part.ranges.get(name, []) if part.ranges.get(name) is not ranges else []
 
 
 def _sections_of(part: _Part, sections: dict[int, Section], unconfirmed: dict[int, str]) -> dict[int, int]:
@@ -191,6 +204,8 @@ def _sections_of(part: _Part, sections: dict[int, Section], unconfirmed: dict[in
             reason = "is given by its stiffness"
         else:
             thickness = _first(fields)
+        if not thickness > 0.0 or not np.isfinite(thickness):
+            thickness, reason = np.nan, reason or "has no number as its thickness"
         if "NODAL THICKNESS" in word.parameters or word.get("SHELL THICKNESS"):
             thickness, reason = np.nan, "has a thickness that varies"
         offset = word.get("OFFSET").upper()
@@ -202,11 +217,17 @@ def _sections_of(part: _Part, sections: dict[int, Section], unconfirmed: dict[in
         sections[number] = Section(thickness, -fraction * thickness if np.isfinite(thickness) else 0.0)
         if reason:
             unconfirmed[number] = f"section {number} (elements {name}) {reason}"
-        of_element |= dict.fromkeys(part.sets.get(name.upper(), ()), number)
+        own, ranges = part.sets.get(name.upper(), set()), part.ranges.get(name.upper(), [])
+        members = (e for e in part.elements if e in own or any(e in labels for labels in ranges))
+        for element in members:
+            if (first := of_element.setdefault(element, number)) != number:
+                unconfirmed[first] = f"section {first} shares elements with section {number}"
     return of_element
 
 
-def _placed_parts(path: Path, parts: Mapping[str, _Part], instances: list[Keyword]) -> Iterator[tuple[_Part, Placed]]:
+def _placed_parts(
+    parts: Mapping[str, _Part], instances: list[Keyword], problems: list[Problem]
+) -> Iterator[tuple[_Part, Placed]]:
     """Parts as they stand in the assembly; a deck without instances is one part in global axes."""
     yield parts[""], Placed()
     for word in instances:
@@ -215,7 +236,9 @@ def _placed_parts(path: Path, parts: Mapping[str, _Part], instances: list[Keywor
         if part is None:
             what = f"the instance {word.get('NAME')!r} is of the part {word.get('PART')!r}, which is not defined"
             raise DataError(Problem("no_part", word.where, what, "Give the whole deck"))
-        place = placed([[float(text or 0.0) for text in row[2]] for row in word.data], word.where)
+        rows = [_numbers(row, problems) or [] for row in word.data]
+        refuse(DataError, problems)
+        place = placed(rows, word.where)
         yield part, place
         if own.nodes or own.elements:
             yield own, place
@@ -243,6 +266,11 @@ def _numbers(row: Data, problems: list[Problem]) -> list[float] | None:
         problems.append(_bad(row, "a number is not finite"))
         return None
     return values
+
+
+def _is_label(value: float) -> bool:
+    """Whether a number can be that of a node or an element."""
+    return value.is_integer() and 0 <= value < _HIGHEST
 
 
 def _first(fields: list[str]) -> float:

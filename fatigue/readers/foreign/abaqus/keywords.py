@@ -7,12 +7,23 @@ from pathlib import Path
 
 from fatigue.errors import DataError, Problem
 from fatigue.files.naming import missing_foreign_file
+from fatigue.readers.text.encoding import marked_encoding
 
 _FIRST = re.compile(
     r"^\s*\*\s*(heading|node|element|part|assembly|include|preprint|solid section|shell section|nset|elset|material)\b",
     re.I,
 )
 _DEEPEST = 50
+_READ = (
+    *("NODE", "ELEMENT", "NSET", "ELSET", "PART", "END PART", "INSTANCE", "END INSTANCE", "ASSEMBLY", "END ASSEMBLY"),
+    *("SHELL SECTION", "SHELL GENERAL SECTION", "SYSTEM", "INCLUDE", "PARAMETER", "STEP"),
+    *("NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY"),
+)
+_PARAMETERS = (
+    *("TYPE", "ELSET", "NSET", "GENERATE", "INSTANCE", "NAME", "PART", "SYSTEM", "INPUT", "MATERIAL", "COMPOSITE"),
+    *("OFFSET", "NODAL THICKNESS", "SHELL THICKNESS"),
+)
+_SHORTEST = 3  # letters of an abbreviation
 
 Data = tuple[str, int, list[str]]
 """File, line from 1, and the fields of a data line."""
@@ -73,7 +84,8 @@ def keywords(path: Path) -> tuple[list[Keyword], tuple[Path, ...]]:
 def _lines(path: Path, root: Path, included: list[Path], depth: int) -> Iterator[tuple[str, int, str]]:
     """Lines without comments and blanks; keyword lines that end in a comma are joined with the next."""
     try:
-        text = path.read_text("utf-8", errors="replace")
+        raw_bytes = path.read_bytes()
+        text = raw_bytes.decode(marked_encoding(raw_bytes[:4]), errors="replace")
     except (FileNotFoundError, IsADirectoryError):
         raise DataError(missing_foreign_file(path)) from None
     except OSError as error:
@@ -115,12 +127,23 @@ def _included(where: str, line: str, root: Path, included: list[Path], depth: in
 def _keyword(where: str, line: str) -> Keyword:
     """A keyword line in its parts; names may be written with any blanks and letters."""
     words = [word.strip() for word in _split(line[1:])]
+    keyword = _written_out(words[0], _READ)
     parameters: dict[str, str] = {}
     for word in words[1:]:
         if word:
             name, is_given, value = word.partition("=")
-            parameters[" ".join(name.upper().split())] = value.strip().strip("\"'") if is_given else ""
-    return Keyword(" ".join(words[0].upper().split()), parameters, where)
+            parameters[_written_out(name, _PARAMETERS)] = value.strip().strip("\"'") if is_given else ""
+    return Keyword(keyword, parameters, where)
+
+
+def _written_out(word: str, known: tuple[str, ...]) -> str:
+    """A keyword or parameter in capitals, in full where its first letters, without blanks, are those of one alone."""
+    bare = "".join(word.upper().split())
+    of_known = {"".join(name.split()): name for name in known}
+    if bare in of_known:
+        return of_known[bare]
+    fits = [name for short, name in of_known.items() if short.startswith(bare)] if len(bare) >= _SHORTEST else []
+    return fits[0] if len(fits) == 1 else " ".join(word.upper().split())
 
 
 def _split(line: str) -> list[str]:

@@ -13,10 +13,11 @@ from fatigue.readers.foreign.channels.group import ChannelGroup, RecordedChannel
 from fatigue.readers.foreign.histories.foreign_history import ForeignHistory
 from fatigue.readers.foreign.histories.header import Header
 from fatigue.readers.foreign.histories.table_history import history_of_table, with_unit
-from fatigue.readers.units.channel_names import channel, without_unit_one
+from fatigue.readers.units.channel_names import Channel, channel, without_unit_one
 
 _TIME = RecordedChannel("time", "s")
 _CALLED_Q = re.compile(r"(?:\A|.*[^a-z])(?:q|eta|modal[ _]?coord\w*)[ _.(\[]*\d+[)\] ]*\Z", re.IGNORECASE | re.DOTALL)
+_OF_BODY = re.compile(r"(.*?)[^a-z0-9]*(?:q|eta|modal[ _]?coord\w*)[ _.(\[]*\d+[)\] ]*\Z", re.IGNORECASE | re.DOTALL)
 _LOAD = "u_"
 
 
@@ -35,16 +36,20 @@ def coordinates_of(
     Raises
     ------
     DataError
-        no such channels, or some without time, some on different time bases; whatever ``history_of_table`` refuses
+        no such channels, or some without time, some on different time bases, coordinates of several bodies or
+        runs; whatever ``history_of_table`` refuses
     """
     groups = [group for group in groups if group.channels]
     if not groups:
         raise DataError(Problem("no_coordinates", str(path), "the file has no channels", "Export them again"))
-    says_q = any(_CALLED_Q.match(channel(one.name).base) for group in groups for one in group.channels)
+    says_q = any(called_q(one.name) for group in groups for one in group.channels)
     taken = [(group, _taken(group, columns, time_column, says_q=says_q)) for group in groups]
     used = [(group, at) for group, at in taken if at]
     if columns is None and not any(_mode(group, k) for group, at in used for k in at):
         used = [(group, list(range(len(group.channels)))) for group in groups]  # to be joined in order
+    if columns is None:
+        _refuse_several_runs(path, used)
+        _refuse_several_bodies(path, used)
     if not used:
         named = ", ".join(repr(name) for name in list(columns or ())[:8])
         what = f"none of the channels {named} is there; the file has {_listed(groups)}"
@@ -59,6 +64,11 @@ def coordinates_of(
         raise DataError(Problem("no_time", str(path), what, "Export the channels with their time"))
     warnings = dict.fromkeys(warning for group, _ in used for warning in group.warnings)
     return _history(path, used, columns, time_column, (*warnings, *_left_out(path, groups, used)))
+
+
+def called_q(name: str) -> bool:
+    """Whether a channel is called as modal coordinates are, as ``q_12``."""
+    return _CALLED_Q.match(channel(name).base) is not None
 
 
 def _history(
@@ -78,7 +88,8 @@ def _history(
     channels = []
     for (one, group), name in zip(own, without_unit_one(names), strict=True):
         place = f"{path}, group {group!r}" if group else str(path)
-        channels.append(with_unit(f"{place}, channel {one.name!r}", channel(name), one.unit))
+        stated = _with_number(channel(name), one)
+        channels.append(with_unit(f"{place}, channel {one.name!r}", stated, one.unit))
     table = np.concatenate(values).T.astype(np.float64, copy=False)
     history = history_of_table(path, Header((names,), tuple(channels), (), ()), table, None, columns, time_column)
     return replace(history, warnings=(*history.warnings, *warnings))
@@ -92,9 +103,7 @@ def _taken(
     if columns is not None:
         wanted = {composed(name) for name in (*columns, *filter(None, [time_column]))}
         return [k for k, name in enumerate(names) if {composed(name), composed(channel(name).base)} & wanted]
-    numbered = [
-        k for k, name in enumerate(names) if _mode(group, k) and (not says_q or _CALLED_Q.match(channel(name).base))
-    ]
+    numbered = [k for k, name in enumerate(names) if _mode(group, k) and (not says_q or called_q(name))]
     beside = [
         k
         for k, name in enumerate(names)
@@ -103,8 +112,42 @@ def _taken(
     return sorted([*numbered, *beside]) if numbered else []
 
 
+def _refuse_several_runs(path: Path, used: Sequence[tuple[ChannelGroup, list[int]]]) -> None:
+    """Refuse groups with the same coordinates, as analyses or subcases are: each is an event of its own."""
+    first: dict[str, ChannelGroup] = {}
+    for group, at in used:
+        for name in (group.channels[k].name for k in at if _mode(group, k)):
+            if first.setdefault(name, group) is not group:
+                what = f"channel {name!r} is in groups {first[name].name!r} and {group.name!r}"
+                table = f"fatigue channels {path} --group {group.name!r} -o q.parquet"
+                remedy = f"Give each as an event, written by: {table}; or name those to take by --columns"
+                raise DataError(Problem("several_runs", str(path), what, remedy))
+
+
+def _refuse_several_bodies(path: Path, used: Sequence[tuple[ChannelGroup, list[int]]]) -> None:
+    """Refuse coordinates called q of several bodies: modes of one would fill the gaps of another."""
+    bodies: dict[str, str] = {}
+    for group, at in used:
+        for k in at:
+            name = group.channels[k].name
+            if called := _OF_BODY.match(channel(name).base):
+                bodies.setdefault(called[1].lower(), name)
+    if len(bodies) > 1:
+        shown = ", ".join(repr(name) for name in list(bodies.values())[:4])
+        what = f"the channels are coordinates of {len(bodies)} bodies: {shown}"
+        remedy = "Name those of one body by --columns (a file of 'column,mode')"
+        raise DataError(Problem("several_bodies", str(path), what, remedy))
+
+
 def _mode(group: ChannelGroup, k: int) -> int:
-    return channel(group.channels[k].name).mode
+    return group.channels[k].mode or channel(group.channels[k].name).mode
+
+
+def _with_number(own: Channel, one: RecordedChannel) -> Channel:
+    """Channel with the number of its mode and the frequency that the file states beside its name."""
+    if np.isfinite(one.frequency):
+        own = replace(own, frequency=one.frequency, resolution=one.resolution)
+    return replace(own, mode=one.mode or own.mode)
 
 
 def _is_own_time(group: ChannelGroup, k: int) -> bool:

@@ -11,10 +11,17 @@ from fatigue.errors import Problem
 
 @dataclass(frozen=True, slots=True)
 class RecordedChannel:
-    """Name and unit of a channel as the file states them; an empty unit where it states none."""
+    """Name and unit of a channel as the file states them; empty where it states none.
+
+    ``mode``, ``frequency`` and ``resolution`` are what the file says of it elsewhere than in the name, as in
+    ``units.channel_names.Channel``: 0 and NaN where it says nothing.
+    """
 
     name: str
     unit: str = ""
+    mode: int = 0
+    frequency: float = float("nan")
+    resolution: float = float("nan")
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -7,15 +7,18 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import scipy.sparse
 
 from fatigue.errors import DataError, Problem
 from fatigue.readers.foreign.channels.group import ChannelGroup
-from fatigue.readers.foreign.channels.variables import Unreadable, groups_of_variables
+from fatigue.readers.foreign.channels.matlab import AS_ARRAYS, MOST_SPARSE
+from fatigue.readers.foreign.channels.variables import Unreadable, cells, groups_of_variables, in_order
 
 _NUMBERS = frozenset(
     {"double", "single", "logical", *(f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64))}
 )
 _DEEPEST = 32  # structures in each other; a file that refers to itself goes on for ever
+_MOST_PACKED = 1100  # deflate packs a run of equal bytes to 1 in 1032 at most
 
 
 def read_matlab_73(path: Path) -> tuple[ChannelGroup, ...]:
@@ -36,19 +39,19 @@ def read_matlab_73(path: Path) -> tuple[ChannelGroup, ...]:
         said = " ".join(str(error).split())[:120] or type(error).__name__
         what = f"the MATLAB file is damaged or cut ({said})"
         raise DataError(Problem("mat_damaged", str(path), what, "Copy the file again, or save it anew")) from None
-    return groups_of_variables(path, variables)
+    return groups_of_variables(path, in_order(variables), AS_ARRAYS)
 
 
 def _plain(item: Any, file: Any, depth: int) -> Any:
     """A variable as ``variables`` takes it."""
     if depth > _DEEPEST:
-        return Unreadable("structure that contains itself")
+        return Unreadable("a structure that contains itself")
     kind = _text(item.attrs.get("MATLAB_class", b""))
     if "MATLAB_object_decode" in item.attrs or (kind and kind not in (*_NUMBERS, "char", "cell", "struct", "sparse")):
-        return Unreadable(kind or "object")
+        return Unreadable(f"an object of the class {kind}" if kind else "an object")
     if hasattr(item, "keys"):
         is_sparse = kind == "sparse" or "MATLAB_sparse" in item.attrs
-        return Unreadable("sparse matrix") if is_sparse else _struct(item, file, depth)
+        return _sparse(item) if is_sparse else _struct(item, file, depth)
     return _of_data(item, kind, file, depth)
 
 
@@ -56,10 +59,13 @@ def _of_data(item: Any, kind: str, file: Any, depth: int) -> Any:
     """Nothing, an array of references, characters or numbers."""
     if "MATLAB_empty" in item.attrs:
         return "" if kind == "char" else np.zeros(0)
+    _refuse_promise(item, file)
     if item.dtype == object:
-        return _cells([_plain(file[reference], file, depth + 1) for reference in item[()].T.ravel()])
+        return cells([_plain(file[reference], file, depth + 1) for reference in item[()].T.ravel()])
     if kind == "char":
-        return "".join(chr(one) for one in np.asarray(item[()]).T.ravel())
+        rows = np.atleast_2d(np.asarray(item[()]).T)
+        texts = tuple("".join(map(chr, row)).strip("\0 ") for row in rows.tolist())
+        return texts[0] if len(texts) == 1 else texts
     values = item[()]
     if values.dtype.names:  # real and imaginary part
         values = values["real"] + 1j * values["imag"] if {"real", "imag"} <= set(values.dtype.names) else np.zeros(0)
@@ -68,7 +74,8 @@ def _of_data(item: Any, kind: str, file: Any, depth: int) -> Any:
 
 def _struct(item: Any, file: Any, depth: int) -> Any:
     """A structure, or an array of structures, each field of which is an array of references."""
-    fields = {name: item[name] for name in item}
+    order = ["".join(map(_text, name)) for name in item.attrs.get("MATLAB_fields", ())]  # HDF5 has them by the alphabet
+    fields = {name: item[name] for name in (order if set(order) == set(item) else item)}
     references = {
         name: field[()].T.ravel()
         for name, field in fields.items()
@@ -83,12 +90,23 @@ def _struct(item: Any, file: Any, depth: int) -> Any:
     return {name: _plain(field, file, depth + 1) for name, field in fields.items()}
 
 
-def _cells(cells: list[Any]) -> Any:
-    if cells and all(isinstance(one, str) for one in cells):
-        return tuple(one.strip() for one in cells)
-    if cells and all(isinstance(one, dict) for one in cells):
-        return cells[0] if len(cells) == 1 else cells
-    return {f"({number})": one for number, one in enumerate(cells, 1)}
+def _sparse(item: Any) -> Any:
+    """A sparse matrix, whole: values, their rows, and where each column begins among them."""
+    rows, starts = int(item.attrs["MATLAB_sparse"]), np.asarray(item["jc"][()]).ravel()
+    shape = (rows, starts.size - 1)
+    if "data" not in item or rows * shape[1] > MOST_SPARSE:
+        return Unreadable("a sparse matrix, empty or too large to be filled")
+    parts = (np.asarray(item["data"][()]).ravel(), np.asarray(item["ir"][()]).ravel(), starts)
+    return np.asarray(scipy.sparse.csc_array(parts, shape=shape).toarray())
+
+
+def _refuse_promise(item: Any, file: Any) -> None:
+    """Refuse an array that promises more values than the file can hold, however well it packs them."""
+    there = Path(file.filename).stat().st_size
+    if item.size * item.dtype.itemsize > _MOST_PACKED * there:
+        what = f"it promises {item.size} values, and the file has {there} bytes"
+        where = f"{file.filename}, array {item.name!r}"
+        raise DataError(Problem("cut", where, what, "Copy the file again"))
 
 
 def _text(value: Any) -> str:

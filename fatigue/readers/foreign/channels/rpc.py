@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import NoReturn
+from typing import Any, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
@@ -72,7 +72,8 @@ def read_rpc(path: Path) -> tuple[ChannelGroup, ...]:
         scale = np.array([_real(path, head, f"SCALE.CHAN_{k + 1}") for k in range(channels)])
     values = partial(_values, path, layout, scale)
     named = tuple(_channel(head, k + 1) for k in range(channels))
-    return (ChannelGroup("", named, samples, step * np.arange(samples, dtype=np.float64), values),)
+    warnings = _filling(path, layout, _whole(path, head, "PTS_PER_FRAME", 1), step)
+    return (ChannelGroup("", named, samples, step * np.arange(samples, dtype=np.float64), values, "", warnings),)
 
 
 def _header(path: Path, head: bytes) -> dict[str, str]:
@@ -111,20 +112,43 @@ def _samples(path: Path, head: Mapping[str, str], group: int) -> int:
 
 
 def _channel(head: Mapping[str, str], number: int) -> RecordedChannel:
-    name = head.get(f"DESC.CHAN_{number}", "") or f"channel {number}"
-    return RecordedChannel(name, head.get(f"UNITS.CHAN_{number}", ""))
+    return RecordedChannel(head.get(f"DESC.CHAN_{number}", ""), head.get(f"UNITS.CHAN_{number}", ""))
 
 
 def _values(path: Path, layout: _Layout, scale: NDArray[np.float64], at: Sequence[int]) -> NDArray[np.floating]:
     """Samples (k, t) of the channels at some positions."""
-    wanted, channels, group = list(at), layout.channels, layout.group
+    wanted = list(at)
+    blocks, end = _stored(path, layout)
+    found = np.concatenate([blocks[:, wanted].swapaxes(0, 1).reshape(len(wanted), -1), end[wanted]], axis=1)
+    with np.errstate(invalid="ignore"):  # of numbers that are none, which are refused by their place
+        return np.asarray(found * scale[wanted, None])
+
+
+def _stored(path: Path, layout: _Layout) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Whole groups (g, c, n) as they are stored, and samples (c, last) of the last one."""
+    channels, group = layout.channels, layout.group
     whole = (layout.samples - layout.last) // group
     rest = group if layout.is_filled else layout.last
     flat = np.memmap(path, layout.stored, "r", layout.start, (channels * (whole * group + rest),))
-    blocks = flat[: whole * channels * group].reshape(whole, channels, group)[:, wanted]
-    end = flat[whole * channels * group :].reshape(channels, rest)[wanted, : layout.last]
-    found = np.concatenate([blocks.swapaxes(0, 1).reshape(len(wanted), -1), end], axis=1)
-    return np.asarray(found * scale[wanted, None])
+    blocks, end = flat[: whole * channels * group], flat[whole * channels * group :]
+    return blocks.reshape(whole, channels, group), end.reshape(channels, rest)[:, : layout.last]
+
+
+def _filling(path: Path, layout: _Layout, frame: int, step: float) -> tuple[Problem, ...]:
+    """Warning about a last frame that seems to be filled up: no key says how many of its samples were recorded."""
+    end = _stored(path, layout)[1][:, -frame - 1 :]  # a group may be the whole record
+    held = int(np.cumprod((end == end[:, -1:]).all(axis=0)[::-1]).sum())  # samples that equal the last one
+    is_zero = not end[:, -1].any()
+    filled = held if is_zero else held - 1
+    if not 2 <= filled < min(frame, layout.samples):
+        return ()
+    at = step * (layout.samples - filled)
+    what = f"the last {filled} samples, from {at:.9g} s on, "
+    what += (
+        f"are {'0' if is_zero else 'those before them'} in all channels, as where a last frame of {frame} is filled up"
+    )
+    remedy = "If they were not recorded, export the record again so that it ends with a whole frame"
+    return (Problem("filled_up", str(path), what, remedy),)
 
 
 def _choice(path: Path, head: Mapping[str, str], key: str, known: Mapping[str, str], default: str = "") -> str:

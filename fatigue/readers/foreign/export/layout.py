@@ -18,7 +18,7 @@ from fatigue.errors import DataError, Problem
 
 VERSION = 1
 HEAD = re.compile(r"\Afatigue export (\d+) (\S+) ?([^\r\n]*)\r?\n")
-_BLOCK = re.compile(r"\*(\w+) (\d{1,3}) (\d{1,12})(?: (.*))?\Z")
+_BLOCK = re.compile(r"\*(\w+) +(\d{1,3}) +(\d{1,12})\.?(?: +(.*))?\Z")
 _NAMES = frozenset({"nodes", "elements", "sections", "layered", "mode", "static", "shape", "forces"})
 _AT_ONCE = 20_000  # rows turned into numbers together
 

@@ -11,7 +11,7 @@ from fatigue.readers.foreign.export.elements import abaqus_form, element_of
 from fatigue.readers.foreign.export.layout import Block, blocks, solver_of
 from fatigue.readers.foreign.fe.assembly import FileBlocks, assemble
 from fatigue.readers.foreign.fe.force_rows import sharing_rows
-from fatigue.readers.foreign.fe.model import FeModel, Section, Shell, Solid, shell_mesh, solid_mesh
+from fatigue.readers.foreign.fe.model import FeModel, Section, Shell, Solid, others_left_out, shell_mesh, solid_mesh
 from fatigue.readers.foreign.fe.results import Eigenvalue, FeResults, ForceBlock, ShapeBlock
 from fatigue.readers.foreign.fe.static_case import Heading, heading
 
@@ -77,10 +77,10 @@ def read_export_model(path: Path) -> FeModel:
     others: dict[str, int] = {}
     for block in blocks(path, _OF_MESH):
         if block.name == "nodes":
-            rows = _columns(path, block, 4)
+            rows = _finite(path, block, _columns(path, block, 4))
             grids |= dict(zip(_ids(path, block, 0).tolist(), rows[:, 1:], strict=True))
         elif block.name == "sections":
-            for number, thickness, offset in _columns(path, block, 3).tolist():
+            for number, thickness, offset in _finite(path, block, _columns(path, block, 3)).tolist():
                 sections[int(number)] = Section(thickness if thickness > 0.0 else np.nan, offset)
         elif block.name == "layered":
             layered |= set(_ids(path, block, 0).tolist())
@@ -91,7 +91,7 @@ def read_export_model(path: Path) -> FeModel:
                 own = form.corners + len(form.mids)
                 what = f"elements {block.words} have {own} nodes, and {block.values.shape[1] - 2} here"
                 raise DataError(Problem("export_damaged", f"{path}, line {block.line}", what, "Write it again"))
-            for element, pid, *nodes in block.values.astype(np.int64).tolist():
+            for element, pid, *nodes in _whole(path, block).tolist():
                 made = element_of(form, element, pid, nodes)
                 (shells if isinstance(made, Shell) else solids).append(made)  # type: ignore[arg-type]
     mesh = shell_mesh(str(path), grids, shells, sections)
@@ -105,6 +105,7 @@ def read_export_model(path: Path) -> FeModel:
         frame=np.zeros((0, 3, 3)),
         unconfirmed_sections=unconfirmed,
         other_cards=others,
+        warnings=others_left_out(str(path), others),
         solids=solid_mesh(str(path), grids, solids, shells),
     )
 
@@ -139,6 +140,26 @@ def _columns(path: Path, block: Block, columns: int) -> NDArray[np.float64]:
         what = f"*{block.name} has {block.values.shape[1]} columns, and {columns} are read"
         raise DataError(Problem("export_damaged", f"{path}, line {block.line}", what, "Write it again"))
     return block.values
+
+
+def _finite(path: Path, block: Block, values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Rows, none of which holds a number that is not finite."""
+    bad = np.flatnonzero(~np.isfinite(values).all(axis=1))
+    if bad.size:
+        place = f"{path}, line {block.line + int(bad[0]) + 1}"
+        raise DataError(Problem("export_damaged", place, f"a number of *{block.name} is not finite", "Write it again"))
+    return values
+
+
+def _whole(path: Path, block: Block) -> NDArray[np.int64]:
+    """Rows of whole numbers, none below zero."""
+    values = block.values
+    bad = np.argwhere(~((values >= 0) & (values < 2**53) & (values == np.rint(values))))
+    if bad.size:
+        row, column = bad[0].tolist()
+        place = f"{path}, line {block.line + row + 1}"
+        raise DataError(Problem("export_damaged", place, f"{values[row, column]:g} is no id", "Write it again"))
+    return values.astype(np.int64)
 
 
 def _ids(path: Path, block: Block, column: int) -> NDArray[np.int64]:

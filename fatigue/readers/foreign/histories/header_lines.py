@@ -21,6 +21,7 @@ _LISTED = re.compile(
     r"([\"'$.]*[^\W\d].*?)\s*\Z",
     re.IGNORECASE,
 )
+_LETTERED = re.compile(r"\s*([A-Z]{1,2})(?:\s*[:=.)\t]|\s{2,})\s*([\"'$.]*[^\W\d].*?)\s*\Z")
 _BRACKETED = re.compile(r"\[[^\]]*\]|\([^)]*\)|<[^>]*>|\{[^}]*\}")
 _FREE_LABEL = re.compile(
     r"\W*(samples|channels|points|[xy]0|delta_?[xt]|[xy]_dimension|x_columns|date|time_pref|separator|operator)\W*\Z",
@@ -29,6 +30,7 @@ _FREE_LABEL = re.compile(
 _TYPES = ("double", "float", "single", "real", "real*8", "float64", "float32", "numeric", "number")
 _OTHER_UNITS = ("rad", "deg", "n", "kn", "nm", "hz", "v", "mv", "pa", "mpa", "%", "m/s", "m/s^2", "mm/s", "volts")
 UNIT_LABEL = re.compile(r"\W*(units?|einheit(en)?|y_unit_label|unit_label|x_unit_label|dimension)\W*\Z", re.IGNORECASE)
+_QUANTITY = re.compile(r"[/^²³*]|\A[\d.]|\A(?:[munkcd]?m|ft|in)[23]\Z")  # its number is an exponent, not that of a mode
 _COUNT_LABEL = re.compile(r"\W*(channel|chan|ch|column|col|signal|kanal|spalte)s?\W*\Z", re.IGNORECASE)
 _MODE_LABEL = re.compile(r"\W*(modes?|moden?|no|nr|number|id|ids|mode[ _]?(no|nr|number|id)s?)\W*\Z", re.IGNORECASE)
 _HZ_LABEL = re.compile(r"(freq|eigenfreq|f\b|.*\bhz\b)", re.IGNORECASE)
@@ -75,11 +77,21 @@ def header_lines(head: Sequence[str], rows: NumberRows, listed: Collection[int])
         kind = _kind(cells, decimal_sign(rows))
         if kind == "numbers" and line.lstrip().startswith(COMMENTS) and _counts_columns(cells):
             continue
+        if kind == "names" and any(_states_units(row, cells) for row in found.rows if row.kind == "names"):
+            kind = "units"
         if kind == "free":
             found.free.append((k + 1, line))
         elif kind != "types":
             found.rows.append(HeaderRow(k + 1, cells, kind))
     return found
+
+
+def _states_units(names: HeaderRow, cells: Sequence[str]) -> bool:
+    """Whether a row below names is one of units, of whatever quantities: below the name of the time is one of time."""
+    timed = [below for name, below in zip(names.cells, cells, strict=True) if channel(name).is_time]
+    newly_named = (below for name, below in zip(names.cells, cells, strict=True) if not channel(name).mode)
+    is_below = any(below.strip("[](){}<> ").lower() in TIME_UNITS for below in timed)
+    return is_below and not any(channel(below).mode and not _QUANTITY.search(below) for below in newly_named)
 
 
 def decimal_sign(rows: NumberRows) -> Decimal:
@@ -170,12 +182,14 @@ def _is_lone_time_unit(line: str) -> bool:
 
 
 def listed_names(path: Path, head: Sequence[str], width: int) -> tuple[HeaderRow | None, Collection[int]]:
-    """Names in a list of channels, one a line and numbered; it has to have as many as there are columns.
+    """Names in a list of channels, one a line, numbered or lettered; it has to have as many as there are columns.
 
     Returns
     -------
     the names as a row, None if there is no list, and the lines it takes
     """
+    if lettered := _lettered_names(head, width):
+        return lettered
     found = [(k + 1, int(m[1]), m[2]) for k, line in enumerate(head) if (m := _LISTED.match(line))]
     for first, (line, number, _) in enumerate(found):
         listed = [f for k, f in enumerate(found[first:]) if f[:2] == (line + k, number + k)]
@@ -190,3 +204,21 @@ def listed_names(path: Path, head: Sequence[str], width: int) -> tuple[HeaderRow
             raise DataError(Problem("column_count", f"{path}, line {line}", what, "Export again, or remove the list"))
         return HeaderRow(line, tuple(names), "names"), range(line, line + len(listed))
     return None, ()
+
+
+def _lettered_names(head: Sequence[str], width: int) -> tuple[HeaderRow, Collection[int]] | None:
+    """Names in a legend of letters, one a line: ``A: Time (sec)``; a row of these letters alone belongs to it."""
+    letters = [_letters(k) for k in range(width)]
+    for first in range(len(head) - width + 1):
+        found = [_LETTERED.match(line) for line in head[first : first + width]]
+        if width < 2 or not all(found) or [m[1] for m in found if m] != letters:
+            continue
+        names = tuple(m[2].strip("\"' ") for m in found if m)
+        alone = [k + 1 for k, line in enumerate(head) if re.split(r"[\s,;]+", line.strip(" \t\"',;")) == letters]
+        return HeaderRow(first + 1, names, "names"), [*range(first + 1, first + width + 1), *alone]
+    return None
+
+
+def _letters(k: int) -> str:
+    """Letters of a column as spreadsheets count them: A to Z, AA to ZZ."""
+    return chr(65 + k) if k < 26 else _letters(k // 26 - 1) + chr(65 + k % 26)

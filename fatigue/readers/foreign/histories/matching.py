@@ -75,6 +75,12 @@ def _in_order(history: ForeignHistory, mode: NDArray[np.int64], frequency: NDArr
     if twice and np.unique(numbers).size < numbers.size:
         what = f"column {twice[0]!r} is there {history.name.count(twice[0])} times"
         raise DataError(Problem("mode_twice", history.source, what, "Export every mode once"))
+    back = np.flatnonzero(np.diff(history.mode) < 0)
+    if (history.mode > 0).all() and back.size:
+        k = int(back[0])
+        what = f"column {history.name[k + 1]!r} stands behind {history.name[k]!r}: which order is meant cannot be told"
+        remedy = "Sort the columns by their numbers, or map each to its mode by --columns"
+        raise DataError(Problem("column_order", history.source, what, remedy))
     return replace(history, mode=mode.copy())
 
 

@@ -15,6 +15,7 @@ from fatigue.readers.foreign.histories.foreign_history import ForeignHistory, ch
 from fatigue.readers.foreign.histories.header import Header, header_frequencies
 from fatigue.readers.foreign.histories.statements import stated_time_unit
 from fatigue.readers.units.channel_names import Channel, seconds_per, unit_of_time
+from fatigue.readers.units.coordinate_units import states_no_unit
 
 _COUNT_NAME = re.compile(
     r"\s*(?:unnamed: \d+|index|idx|#|n[or]\.?|(?:lfd|lfd\.)[ _]?nr\.?|(?:sample|row|point|record|step|zeile|punkt)s?"
@@ -179,12 +180,13 @@ def _frequencies(
 
 
 def with_unit(where: str, own: Channel, unit: str) -> Channel:
-    """Channel with the unit that the file states beside its name.
+    """Channel with the unit that the file states beside its name; none where it says that there is none, as ``-``.
 
     Raises
     ------
     DataError : its name states another unit
     """
+    unit = "" if states_no_unit(unit) else unit
     if unit and own.unit and unit.lower() != own.unit.lower():
         what = f"its name states {own.unit}, its metadata {unit}"
         raise DataError(Problem("header", where, what, "Correct one of them"))

@@ -111,6 +111,59 @@ def test_a_step_that_repeats_a_time_is_one(tmp_path):
     assert "step_again" in {warning.code for warning in history.warnings}
 
 
+def test_ids_say_where_a_value_stands(tmp_path):
+    """Components of an entity are listed together, and their values stand apart, as Adams writes velocities."""
+    text = analysis(before=False)
+    text = text.replace('"Q7" unitsValue="no_units" id="3"', '"Q7" unitsValue="no_units" id="40"')
+    history = read_coordinates(write(tmp_path / "car.res", text), None, None)
+    assert history.mode.tolist() == [12, 7]  # of ids 4 and 40
+    np.testing.assert_allclose(history.q, Q, rtol=1e-14)
+
+
+def test_a_run_from_static_equilibrium_starts_there(tmp_path):
+    """The model as it was put together, before it found its equilibrium, would be a cycle that nothing ever makes."""
+    equilibrium = '<Data name="static_001" id="4">\n' + step("static", [0.0, 0.0, 0.25, -0.25]) + "</Data>\n"
+    text = analysis().replace('<Data name="dynamic_001"', equilibrium + '<Data name="dynamic_001"')
+    history = read_coordinates(write(tmp_path / "car.res", text), None, None)
+    assert history.time[0] == 0.0
+    assert history.q[:, 0].tolist() == [0.25, -0.25]
+    told = next(warning for warning in history.warnings if warning.code == "steps_left_out")
+    assert told.what.endswith("1 of type 'input', 1 of type 'initialConditions'")
+
+
+def test_a_run_that_goes_on_keeps_its_first_start(tmp_path):
+    """Initial conditions of a simulation that goes on from another are its last step, and no new start."""
+    rows = np.vstack([T, 0 * T, Q]).T
+    start = '<Data name="initialConditions_002" id="9">\n' + step("initialConditions", rows[-1]) + "</Data>\n"
+    later = '<Data name="dynamic_002" id="10">\n' + step("dynamic", rows[-1] + [0.02, 0, 0, 0]) + "</Data>\n"
+    text = analysis().replace("</Analysis>", start + later + "</Analysis>")
+    history = read_coordinates(write(tmp_path / "car.res", text), None, None)
+    np.testing.assert_allclose(history.time, [0.0, *T, T[-1] + 0.02])
+    assert history.q[:, 0].tolist() == [0.5, -0.5]
+
+
+def test_values_are_read_of_the_components_asked_for(tmp_path):
+    """A channel that is damaged where nobody asks for it does no harm; asked for, it is refused."""
+    text = analysis(before=False).replace(f"{np.sin(T[4]):.15G}", "0.x1")
+    (group,) = read_channels(write(tmp_path / "car.res", text))
+    np.testing.assert_allclose(group.values([2, 1]), Q[::-1], rtol=1e-14)
+    with pytest.raises(DataError, match=r"step 6 of Dynamic Analysis: it holds '0\.x1'"):
+        group.values([0])
+
+
+def test_modal_coordinates_of_two_bodies_are_told_apart(tmp_path):
+    """A car body and a bogie frame, both with a mode 7: --columns names those of one."""
+    text = analysis(before=False).replace('<Entity name="PART_4_XFORM"', '<Entity name="FRAME_Q"')
+    path = write(
+        tmp_path / "car.res", text.replace('<Component name="X" unitsValue="millimeter"', '<Component name="Q7"')
+    )
+    problem = refused(path)
+    assert problem.code == "several_bodies"
+    assert "'FRAME_Q.Q7', 'FLEX_BODY_1_Q.Q7'" in problem.what
+    history = read_coordinates(path, {"FLEX_BODY_1_Q.Q7": 7, "FLEX_BODY_1_Q.Q12": 12}, None)
+    np.testing.assert_allclose(history.q, Q, rtol=1e-14)
+
+
 def test_two_analyses_are_two_groups(tmp_path):
     """On the same times they would be one event with every mode twice: channels of both are told apart by --columns."""
     path = write(tmp_path / "car.res", analysis("run 1"), analysis("run 2"))
@@ -131,9 +184,24 @@ def test_two_analyses_are_two_groups(tmp_path):
             "res_damaged",
         ),
         (HEAD + analysis().replace("\n0.02 ", "\n0.o2 ", 1) + "</Results>", "not_a_number"),
+        (HEAD + analysis().replace("\n0.02 ", "\n0_02 ", 1) + "</Results>", "not_a_number"),
+        (HEAD + analysis().replace('id="3" />\n<', 'id="4" />\n<') + "</Results>", "res_damaged"),
+        (HEAD + analysis().replace('id="3" />\n<', 'id="x" />\n<') + "</Results>", "res_damaged"),
+        (HEAD + analysis().replace('"TIME"', '"CLOCK"') + "</Results>", "no_time"),
+        (
+            HEAD + analysis().replace("</Analysis>", "<StepMap>" + LAST + "</StepMap></Analysis>") + "</Results>",
+            "res_damaged",
+        ),
     ],
 )
 def test_what_cannot_be_read_is_refused(tmp_path, text, code):
     """In one line with its place."""
     (tmp_path / "car.res").write_text(text)
     assert refused(tmp_path / "car.res").code == code
+
+
+def test_entities_are_refused_in_any_encoding(tmp_path):
+    """Ten lines of them would fill any memory."""
+    text = HEAD.replace("UTF-8", "UTF-16").replace("<Results", ENTITY + "<Results") + analysis() + "</Results>"
+    (tmp_path / "car.res").write_text(text, encoding="utf-16")
+    assert refused(tmp_path / "car.res").code == "res_damaged"

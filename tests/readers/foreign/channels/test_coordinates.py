@@ -43,6 +43,12 @@ def test_channels_with_a_number_are_coordinates():
     assert not history.warnings
 
 
+@pytest.mark.parametrize("none", ["-", "1", "no_units", "None", " "])
+def test_labels_that_say_no_unit_are_none(none):
+    """As ``no_units`` of Adams, or ``-`` of loggers; a unit in the name stays."""
+    assert coordinates_of(PATH, [group([f"q_7|{none}", f"q_3 [mm]|{none}"])], None, None).unit == ("", "mm")
+
+
 def test_channels_without_a_number_stay_behind_and_are_told():
     """A speed beside coordinates is none; a unit load is kept."""
     history = coordinates_of(PATH, [group(["speed", "q_1", "u_pressure"])], None, None)

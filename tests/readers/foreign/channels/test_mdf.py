@@ -109,3 +109,75 @@ def test_a_file_that_is_cut_is_refused_in_one_line(tmp_path, share, version, cap
         read_coordinates(path, None, None)
     assert len(caught.value.problems) == 1
     assert capfd.readouterr() == ("", "")
+
+
+def test_elements_of_arrays_are_channels(tmp_path):
+    """The package gives the first element for the array itself, which is no channel then."""
+    rows = np.rec.fromarrays([ROWS[:, :].T.copy()], dtype=np.dtype([("load", "(3,)<f8")]))
+    path = write(tmp_path / "run.mf4", [signal("q_1", ROWS[0]), signal("load", rows)])
+    (group,) = read_channels(path)
+    assert [one.name for one in group.channels] == ["q_1", "load[0]", "load[1]", "load[2]"]
+    np.testing.assert_array_equal(group.values([1, 2, 3]), ROWS)
+
+
+def test_groups_of_one_name_are_counted(tmp_path):
+    """So that each can be asked for."""
+    path = write(tmp_path / "run.mf4", [signal("q_1", ROWS[0])], [signal("load", ROWS[1, ::5], time=TIME[::5])])
+    assert [group.name for group in read_channels(path)] == ["Python (1)", "Python (2)"]
+
+
+def test_time_is_taken_beside_another_master(tmp_path):
+    """A group may be ordered over time and over distance; the package takes the last of the two."""
+    path = tmp_path / "run.mf4"
+    with asammdf.MDF(version="4.10") as file:
+        file.append([signal("q_1", ROWS[0]), signal("way", 50.0 * TIME, unit="m")], common_timebase=True)
+        way = file.groups[0].channels[2]
+        way.channel_type, way.sync_type = 2, 3
+        file.save(path, overwrite=True)
+    (group,) = read_channels(path)
+    assert [one.name for one in group.channels] == ["q_1"]
+    np.testing.assert_allclose(group.time, TIME, rtol=1e-12)
+
+
+def test_a_master_in_milliseconds_is_time(tmp_path):
+    """Against the standard, and as some write it; a master in degrees is none."""
+    for unit, said in (("ms", None), ("deg", "is in deg, which is no unit of time")):
+        path = tmp_path / f"{unit}.mf4"
+        with asammdf.MDF(version="4.10") as file:
+            file.append([signal("q_1", ROWS[0], time=1000 * TIME)], common_timebase=True)
+            file.groups[0].channels[0].unit = unit
+            file.save(path, overwrite=True)
+        (group,) = read_channels(path)
+        if said is None:
+            np.testing.assert_allclose(group.time, TIME, rtol=1e-12)
+        else:
+            assert said in group.without_time
+
+
+def test_raw_frames_of_a_bus_are_refused(tmp_path):
+    """With the way to channels."""
+    frames = np.zeros(500, dtype=[("CAN_DataFrame.ID", "u4"), ("CAN_DataFrame.DataBytes", "(8,)u1")])
+    source = asammdf.Source(name="CAN", path="CAN", comment="", source_type=2, bus_type=2)
+    path = tmp_path / "run.mf4"
+    with asammdf.MDF(version="4.10") as file:
+        file.append([signal("CAN_DataFrame", frames, unit="", source=source)], common_timebase=True)
+        file.groups[0].channel_group.flags |= 0x2
+        file.save(path, overwrite=True)
+    with pytest.raises(DataError, match="frames of a bus"):
+        read_channels(path)
+
+
+def test_a_file_that_was_not_finalised_is_refused(tmp_path):
+    """With the way out: its counts are those of the moment at which recording began."""
+    path = write(tmp_path / "run.mf4", [signal("q_1", ROWS[0])])
+    path.write_bytes(b"UnFinMF " + path.read_bytes()[8:])
+    with pytest.raises(DataError, match="not finalised"):
+        read_channels(path)
+
+
+def test_compressed_blocks_are_read(tmp_path):
+    """Transposed and deflated."""
+    path = write(tmp_path / "run.mf4", [signal("q_1", ROWS[0])])
+    with asammdf.MDF(path) as file:
+        file.save(tmp_path / "small.mf4", compression=2, overwrite=True)
+    np.testing.assert_array_equal(read_channels(tmp_path / "small.mf4")[0].values([0])[0], ROWS[0])

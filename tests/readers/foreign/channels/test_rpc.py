@@ -111,3 +111,49 @@ def test_a_file_that_is_cut_is_refused(tmp_path, share):
     whole = path.read_bytes()
     path.write_bytes(whole[: int(share * len(whole))])
     assert refused(path).code in ("cut", "rpc_header")
+
+
+@pytest.mark.parametrize(("kind", "frame", "per_group"), [("i2", 64, 2), ("f4", 64, 5), ("i2", 512, 1)])
+def test_a_last_frame_that_seems_to_be_filled_up_is_told(tmp_path, kind, frame, per_group):
+    """Zeros behind a record that hangs at -16 under gravity would be its largest cycle."""
+    path = tmp_path / "run.rsp"
+    stored = write_rpc(path, VALUES - 16.0, kind=kind, frame=frame, per_group=per_group)
+    (group,) = read_channels(path)
+    (warning,) = group.warnings
+    assert warning.code == "filled_up"
+    assert f"the last {stored.shape[1] - 300} samples, from 3 s on, are 0" in warning.what
+    assert group.samples == stored.shape[1]
+
+
+def test_a_last_frame_filled_with_its_last_values_is_told(tmp_path):
+    """As other programs do; a record that ends with a whole frame is not."""
+    path = tmp_path / "run.rsp"
+    held = np.concatenate([VALUES, np.repeat(VALUES[:, -1:], 20, axis=1)], axis=1)
+    write_rpc(path, held)
+    assert "the last 20 samples, from 3 s on, are those before them" in read_channels(path)[0].warnings[0].what
+    write_rpc(path, VALUES, frame=50)
+    assert read_channels(path)[0].warnings == ()
+    write_rpc(path, VALUES, SAMPLES=300)
+    assert read_channels(path)[0].warnings == ()
+
+
+def test_channels_without_a_description_are_no_modes(tmp_path):
+    """Their positions are listed as names; a mode they name only where they are joined in order."""
+    path = tmp_path / "run.rsp"
+    write_rpc(path, VALUES, names=["", "", ""])
+    assert [one.name for one in read_channels(path)[0].channels] == ["channel 1", "channel 2", "channel 3"]
+    history = read_coordinates(path, None, None)
+    assert history.mode.tolist() == [0, 0, 0]
+    np.testing.assert_array_equal(history.q, read_channels(path)[0].values([0, 1, 2]))
+
+
+def test_a_number_that_is_none_is_refused_by_its_place(tmp_path):
+    """A signalling one, as a flipped bit makes it, without a warning of numpy."""
+    path = tmp_path / "run.rsp"
+    write_rpc(path, VALUES, kind="f4", frame=100, per_group=3)
+    whole = bytearray(path.read_bytes())
+    at = len(whole) - 4 * 300 + 4 * 7  # sample 8 of the third channel
+    whole[at : at + 4] = b"\x01\x00\x80\x7f"
+    path.write_bytes(whole)
+    with pytest.raises(DataError, match=r"sample 8: .* in column 'q_3'"):
+        read_coordinates(path, None, None)

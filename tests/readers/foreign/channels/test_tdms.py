@@ -125,3 +125,42 @@ def test_a_file_cut_in_its_names_is_refused_in_one_line(tmp_path, share, capfd):
         read_coordinates(path, None, None)
     assert caught.value.problems[0].code in ("tdms_damaged", "no_coordinates")
     assert capfd.readouterr() == ("", "")
+
+
+def test_increments_are_in_their_own_unit(tmp_path):
+    """Milliseconds are turned into seconds; a spectrum or a profile over distance is no time history."""
+    in_ms = timed(step=5.0, offset=100.0, wf_xunit_string="ms")
+    (group,) = read_channels(write(tmp_path / "a.tdms", [("g", "q_1", ROWS[0], in_ms)]))
+    np.testing.assert_allclose(group.time, 0.1 + 0.005 * np.arange(400), rtol=1e-12)
+    for more, said in (({"wf_xunit_string": "Hz"}, "over Hz"), ({"wf_xname": "Frequency"}, "over Frequency")):
+        path = write(tmp_path / "b.tdms", [("g", "q_1", ROWS[0], timed(**more))])
+        with pytest.raises(DataError, match=f"{said}, not over time"):
+            read_coordinates(path, None, None)
+
+
+def test_a_channel_of_stamps_is_time(tmp_path):
+    """Date and time beside the values, in seconds from the first; another column of dates is left out."""
+    stamps = np.datetime64("2026-03-04T12:00:00", "us") + 10_000 * np.arange(400)
+    path = write(
+        tmp_path / "run.tdms", [("g", "Time", stamps, {}), ("g", "q_1", ROWS[0], {}), ("g", "checked", stamps, {})]
+    )
+    (group,) = read_channels(path)
+    assert [one.name for one in group.channels] == ["q_1"]
+    np.testing.assert_allclose(group.time, 0.01 * np.arange(400), rtol=1e-12)
+    np.testing.assert_array_equal(group.values([0])[0], ROWS[0])
+
+
+def test_channels_that_a_cut_left_empty_are_named(tmp_path):
+    """A coordinate that is lost without a word would be taken for a mode that does not move."""
+    path = write(tmp_path / "run.tdms", [("g", f"q_{k + 1}", ROWS[k], timed()) for k in range(3)])
+    path.write_bytes(path.read_bytes()[: -8 * 400])
+    history = read_coordinates(path, None, None)
+    assert history.mode.tolist() == [1, 2]
+    assert "nothing of 'q_3'" in history.warnings[0].what
+
+
+def test_a_file_without_numbers_is_refused(tmp_path):
+    """Not listed as nothing."""
+    path = write(tmp_path / "run.tdms", [("g", "note", np.array(["a", "b"], dtype="U1"), {})])
+    with pytest.raises(DataError, match="no channels of numbers"):
+        read_channels(path)

@@ -141,3 +141,73 @@ def test_a_file_that_is_cut_is_refused_or_told(tmp_path, share, binary, capfd):
         read_coordinates(path, None, None)
     assert caught.value.problems[0].code in ("cut", "uff_damaged", "no_channels")
     assert capfd.readouterr() == ("", "")
+
+
+def test_the_line_that_calls_all_q_names_them(tmp_path):
+    """Numbers of records are no modes, though they differ first."""
+    sets = [data_set(f"Record {k + 1}", ROWS[k], id2=f"q_{k + 7}") for k in range(3)]
+    assert read_coordinates(write(tmp_path / "run.uff", sets), None, None).mode.tolist() == [7, 8, 9]
+
+
+def test_spectra_beside_histories_are_left_out_and_told(tmp_path):
+    """Modal tests keep both in one file."""
+    path = write(tmp_path / "run.uff", [data_set("q_1", ROWS[0]), data_set("H11", ROWS[1], func_type=4)])
+    history = read_coordinates(path, None, None)
+    assert history.mode.tolist() == [1]
+    (warning,) = history.warnings
+    assert warning.code == "channels_left_out"
+    assert "'H11': it holds frequency response functions" in warning.what
+
+
+def test_complex_values_and_functions_over_nothing_are_refused(tmp_path):
+    """A general function has to say that it is over time."""
+    both = ROWS[0] + 1j * ROWS[1]
+    with pytest.raises(DataError, match="complex"):
+        read_channels(write(tmp_path / "a.uff", [data_set("q_1", both, ord_data_type=6)]))
+    bare = {"func_type": 0, "abscissa_spec_data_type": 0, "abscissa_axis_lab": "NONE"}
+    path = write(tmp_path / "b.uff", [data_set("q_1", ROWS[0], abscissa_axis_units_lab="NONE", **bare)])
+    with pytest.raises(DataError, match="nothing says that its abscissa is time"):
+        read_channels(path)
+    assert read_channels(write(tmp_path / "c.uff", [data_set("q_1", ROWS[0], **bare)]))[0].time[0] == 2.0
+
+
+@pytest.mark.parametrize("order", [1, 2])
+def test_numbers_of_other_machines_are_refused(tmp_path, order):
+    """Both byte orders are read; DEC and IBM numbers would be taken for IEEE ones without a word."""
+    path = write(tmp_path / "run.uff", [data_set("q_1", ROWS[0], binary=1, byte_ordering=order)])
+    np.testing.assert_array_equal(read_channels(path)[0].values([0])[0], ROWS[0])
+    whole = path.read_bytes()
+    at = whole.index(b"    58b") + 13
+    path.write_bytes(whole[:at] + b"     1" + whole[at + 6 :])
+    with pytest.raises(DataError, match="floating point format 1"):
+        read_channels(path)
+
+
+def test_displacements_without_label_are_in_the_length_of_the_file(tmp_path):
+    """Data set 164: so many in a metre. A label counts more, and other values have none of it."""
+    units = {
+        "type": 164,
+        "units_code": 5,
+        "units_description": "mm (milli-newton)",
+        "temp_mode": 1,
+        "length": 1000.0,
+        "force": 1000.0,
+        "temp": 1.0,
+        "temp_offset": 273.15,
+    }
+    bare = {"ordinate_axis_units_lab": "NONE"}
+    sets = [data_set("q_1", ROWS[0], **bare), data_set("q_2", ROWS[1], ordinate_axis_units_lab="m")]
+    sets.append(data_set("q_3", ROWS[2], ordinate_spec_data_type=0, **bare))
+    (group,) = read_channels(write(tmp_path / "run.uff", [units, *sets]))
+    assert [one.unit for one in group.channels] == ["mm", "m", ""]
+
+
+def test_windows_line_ends_are_read(tmp_path):
+    """And the line end that some write between binary values and the mark of the end."""
+    path = write(tmp_path / "run.uff", [data_set("q_1", ROWS[0])])
+    path.write_bytes(path.read_bytes().replace(b"\n", b"\r\n"))
+    np.testing.assert_allclose(read_channels(path)[0].values([0])[0], ROWS[0], rtol=1e-11)
+    path = write(tmp_path / "binary.uff", [data_set("q_1", ROWS[0], binary=1)])
+    whole = path.read_bytes()
+    path.write_bytes(whole[: whole.rindex(b"    -1")] + b"\r\n    -1\r\n")
+    np.testing.assert_array_equal(read_channels(path)[0].values([0])[0], ROWS[0])

@@ -9,10 +9,10 @@ import pyarrow.parquet as pq
 import pytest
 
 from fatigue.errors import DataError
-from fatigue.example import write_requests
 from fatigue.readers.convert.convert import convert
 from fatigue.readers.convert.options import ConvertOptions
 from fatigue.readers.foreign.read import read_forces, read_model, recognise
+from tests.command_line import fatigue
 from tests.readers.foreign.export.odb_stand_in import (
     assign,
     database,
@@ -249,6 +249,10 @@ def test_a_damaged_text_is_refused_with_its_line(text, tmp_path, change, code, s
 
 
 def test_the_script_reaches_its_user(tmp_path):
-    """As a file beside the tables to fill in."""
-    (path,) = write_requests(tmp_path)
-    assert path.read_bytes() == SCRIPT.read_bytes()
+    """On the terminal, or as a file, which is not overwritten unasked."""
+    out = tmp_path / "abaqus_export.py"
+    assert fatigue("request", "abaqus", "-o", out).returncode == 0
+    assert out.read_bytes() == SCRIPT.read_bytes()
+    assert fatigue("request", "abaqus", "-o", out).returncode == 3
+    for solver, word in (("ansys", "FORCE,STATIC"), ("nastran", "GPFORCE")):
+        assert word in fatigue("request", solver).stdout

@@ -111,3 +111,35 @@ def test_parquet_columns_that_a_map_leaves_out(tmp_path):
         read_coordinates(path, {"q_1": 3, "run": 4}, None)
     with pytest.raises(DataError, match="the column holds dates"):
         read_coordinates(path, None, None)
+
+
+@pytest.mark.parametrize("legend", ["{} = {}\n", "{}: {}\n", "{}   {}\n", "{}\t{}\n"])
+@pytest.mark.parametrize("row", ["", "A\tB\tC\n", "A\tB\tC\n(msec)\t( )\t( )\n"])
+def test_a_legend_of_letters_names_the_columns(read, legend, row):
+    """As Adams and plotting programs write them; a row of the letters below belongs to it."""
+    names = ("Time (msec)", ".FLEX_BODY_1_Q.Q7", ".FLEX_BODY_1_Q.Q12")
+    head = ".plot_1 : Last_Run\n" + "".join(map(legend.format, "ABC", names)) + "\n" + row
+    history = read(head + "0\t1\t2\n10\t3\t4\n20\t5\t6\n")
+    assert history.mode.tolist() == [7, 12]
+    np.testing.assert_allclose(history.time, [0.0, 0.01, 0.02])
+
+
+def test_a_legend_of_letters_has_every_column(read):
+    """Else it is free text, and the columns are as nameless as before."""
+    assert read("A: Time\nB: Q7\n\n0\t1\t2\n1\t3\t4\n").mode.tolist() == [0, 0]
+
+
+def test_more_columns_than_letters(read):
+    """Z is followed by AA."""
+    letters = [chr(65 + k) for k in range(26)] + ["AA", "AB"]
+    names = ["Time", *(f"Q{k}" for k in range(7, 34))]
+    head = "".join(f"{a}: {name}\n" for a, name in zip(letters, names, strict=True))
+    rows = "".join("\t".join(str(float(n + k)) for k in range(28)) + "\n" for n in range(3))
+    assert read(head + rows).mode.tolist() == list(range(7, 34))
+
+
+@pytest.mark.parametrize("legend", ["A: Time\nB: Q7\n", "1: Time\n2: Q7\n"])
+def test_a_broken_first_row_below_a_legend_is_refused(read, legend):
+    """It is no title: the record would begin later than it did."""
+    with pytest.raises(DataError, match="line 4"):
+        read(legend + "\n0\t12\t3\n1\t4\n2\t5\n3\t6\n")

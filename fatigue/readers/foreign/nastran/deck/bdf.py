@@ -1,4 +1,4 @@
-"""Shell geometry from NASTRAN or OptiStruct bulk data: what its cards say, with all references resolved."""
+"""Shells and solids from NASTRAN or OptiStruct bulk data: what its cards say, with all references resolved."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem, refuse
-from fatigue.readers.foreign.fe.model import FeModel, Shell, shell_mesh
+from fatigue.readers.foreign.fe.model import FeModel, Shell, Solid, shell_mesh, solid_mesh
 from fatigue.readers.foreign.nastran.deck.bulk import HANDLERS, Bulk, grids_twice
 from fatigue.readers.foreign.nastran.deck.card import Card
 from fatigue.readers.foreign.nastran.deck.cards import cards
@@ -15,6 +15,7 @@ from fatigue.readers.foreign.nastran.deck.lines import Deck, read_deck
 from fatigue.readers.foreign.nastran.deck.notes import LeftOut
 from fatigue.readers.foreign.nastran.deck.sets import joined_sets
 from fatigue.readers.foreign.nastran.deck.shells import SHELLS, Property, shell
+from fatigue.readers.foreign.nastran.deck.solids import SOLIDS, solid
 from fatigue.readers.foreign.nastran.frames import Frames
 
 _ELEMENT_CARDS = ("C", "RBE", "RBAR", "RROD", "RSPLINE")
@@ -23,12 +24,12 @@ _MOST_PROBLEMS = 10
 
 
 def read_bdf(path: Path) -> FeModel:
-    """Read grids, coordinate systems, shells, shell properties, sets and markers; other cards become a warning.
+    """Read grids, coordinate systems, shells, shell properties, solids, sets and markers; other cards become a warning.
 
     Raises
     ------
-    DataError : unreadable file, bad field, an id with two contents, reference to something missing, superelements, no
-        shells
+    DataError : unreadable file, bad field, an id with two contents, reference to something missing, superelements,
+        neither shells nor solids
     """
     deck = read_deck(path)
     bulk = Bulk(str(path))
@@ -69,6 +70,7 @@ def _model(bulk: Bulk, deck: Deck, left_out: LeftOut, problems: list[Problem]) -
     frames = Frames(bulk.source, {cid: frame for cid, (frame, _) in bulk.frames.items()}, position)
     cd: dict[int, int] = {}
     shells: list[Shell] = []
+    solids: list[Solid] = []
     properties = {pid: found for pid, (found, _) in bulk.properties.items()}
     for grid, card in bulk.grids.items():
         try:
@@ -81,8 +83,13 @@ def _model(bulk: Bulk, deck: Deck, left_out: LeftOut, problems: list[Problem]) -
             shells.append(shell(card, properties))
         except DataError as error:
             problems += error.problems
+    for card in bulk.solids.values():
+        try:
+            solids.append(solid(card))
+        except DataError as error:
+            problems += error.problems
     _refuse_some(list(dict.fromkeys(_with_unread_frames(problems, left_out))))
-    if not shells:
+    if not shells and not solids:
         raise DataError(_no_shells(bulk, left_out))
     turned = sorted(grid for grid, c in cd.items() if c)
     sets, set_warnings = joined_sets(bulk.sets, deck.control)
@@ -104,6 +111,7 @@ def _model(bulk: Bulk, deck: Deck, left_out: LeftOut, problems: list[Problem]) -
             *bulk.twice.warnings(),
             *left_out.warnings(bulk.source),
         ),
+        solids=solid_mesh(bulk.source, xyz, solids, shells),
     )
 
 
@@ -111,7 +119,8 @@ def _no_shells(bulk: Bulk, left_out: LeftOut) -> Problem:
     """Say which elements the deck has instead."""
     others = bulk.bars | {name: n for name, n in left_out.count.items() if _is_element(name)}
     found = ", ".join(f"{n} {name}" for name, n in sorted(others.items())) or "no element at all"
-    what = f"the model has no shell elements ({', '.join(SHELLS)}): {len(bulk.grids)} grids, {found}"
+    what = f"the model has no shell elements ({', '.join(SHELLS)}) and no solid ones ({', '.join(SOLIDS)}): "
+    what += f"{len(bulk.grids)} grids, {found}"
     return Problem("no_shells", bulk.source, what, "Give the bulk data that holds the plates")
 
 

@@ -8,6 +8,7 @@ from fatigue.readers.foreign.nastran.deck.card import Card
 from fatigue.readers.foreign.nastran.deck.notes import Twice
 from fatigue.readers.foreign.nastran.deck.sets import set_on_card
 from fatigue.readers.foreign.nastran.deck.shells import SHELLS, Property, pcomp, pshell
+from fatigue.readers.foreign.nastran.deck.solids import SOLIDS
 from fatigue.readers.foreign.nastran.deck.twice import same_card, same_grid
 from fatigue.readers.foreign.nastran.frames import FrameCard
 
@@ -24,6 +25,7 @@ class Bulk:
     grdset: Card | None = None
     frames: dict[int, tuple[FrameCard, Card]] = field(default_factory=dict)
     shells: dict[int, Card] = field(default_factory=dict)
+    solids: dict[int, Card] = field(default_factory=dict)
     properties: dict[int, tuple[Property, Card]] = field(default_factory=dict)
     sets: dict[int, list[int]] = field(default_factory=dict)
     markers: dict[str, list[tuple[int, int]]] = field(default_factory=dict)
@@ -127,10 +129,24 @@ def _add_property(bulk: Bulk, card: Card, found: Property) -> None:
 
 
 def _shell(bulk: Bulk, card: Card) -> None:
+    _add_element(bulk, card, bulk.shells)
+
+
+def _solid(bulk: Bulk, card: Card) -> None:
+    _add_element(bulk, card, bulk.solids)
+
+
+def _psolid(bulk: Bulk, card: Card) -> None:
+    if card.text(6).upper() == "PFLUID":
+        what = f"PSOLID {card.text(0)} is a fluid"
+        raise DataError(Problem("fluid_solid", card.where, what, "Give the structure alone"))
+
+
+def _add_element(bulk: Bulk, card: Card, known_cards: dict[int, Card]) -> None:
     element = card.identity()
-    known = bulk.shells.get(element)
+    known = bulk.shells.get(element) or bulk.solids.get(element)
     if known is None:
-        bulk.shells[element] = card
+        known_cards[element] = card
     elif same_card(known, card):
         bulk.twice.add(card.name, card.text(0), card.where)
     else:
@@ -174,4 +190,6 @@ HANDLERS: dict[str, Callable[[Bulk, Card], None]] = {
     **dict.fromkeys(("CORD1R", "CORD1C", "CORD1S"), _cord1),
     **dict.fromkeys(("CORD2R", "CORD2C", "CORD2S"), _cord2),
     **dict.fromkeys(SHELLS, _shell),
+    **dict.fromkeys(SOLIDS, _solid),
+    "PSOLID": _psolid,
 }

@@ -44,6 +44,11 @@ class LeftOut:
             what = f"cards that may be shells are not read: {listed}; no weld is found at them"
             remedy = "Write plates as CQUAD4, CTRIA3 and the like; nothing to do for other elements"
             warnings.append(Problem("unread_shells", self.first[shells[0]], what, remedy, len(shells)))
+        pyramids = [name for name in ("CPYRAM", "CPYRA") if name in self.count]
+        if pyramids:
+            what = f"{self.count[pyramids[0]]} {pyramids[0]} are not read: solids beside them look like a surface there"
+            remedy = "Exclude lines that are found beside them; nothing to do if there are none"
+            warnings.append(Problem("unread_solids", self.first[pyramids[0]], what, remedy, self.count[pyramids[0]]))
         if self.count:
             folder = f"{Path(source).parent}/"
             listed = ", ".join(

@@ -272,7 +272,7 @@ def test_genuine_decks():
     assert polar.mesh.xyz[polar.mesh.node == 10706] == pytest.approx(np.array([[0, 5, 0]]), abs=1e-12)
     assert polar.frame_node.size == 50
     surface = read_bdf(folder / "bsurf_trailing_comma.bdf")
-    assert (surface.mesh.element.size, surface.other_cards) == (414, {"CTETRA": 1137})
+    assert (surface.mesh.element.size, surface.solids.element.size, surface.other_cards) == (414, 1137, {})
     assert "2 BSURF (line 2494)" in surface.warnings[-1].what
     formula = read_bdf(folder / "deqatn.bdf")
     assert formula.mesh.element.size == 28

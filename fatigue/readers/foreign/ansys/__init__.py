@@ -1,0 +1,1 @@
+"""ANSYS: the text that the macro writes, and archives (.cdb)."""

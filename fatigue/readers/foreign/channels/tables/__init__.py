@@ -1,0 +1,1 @@
+"""Channels of tables: workbooks, text, Parquet, files of modal coordinates."""
