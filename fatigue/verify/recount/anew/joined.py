@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.verify.recount.anew.lines.line import Line
+from fatigue.verify.recount.anew.line import Line
 
 COLUMNS = ("order", "node", "xyz", "thickness", "normal", "outward", "edge_mid")
 

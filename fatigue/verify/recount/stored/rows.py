@@ -9,7 +9,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from fatigue.verify.recount.anew.curve import RecountCurve
-from fatigue.verify.recount.anew.lines.line import RecountLineStress, edge_length, edges
+from fatigue.verify.recount.anew.line import RecountLineStress, edge_length, edges
 from fatigue.verify.recount.anew.mission import RecountEvent
 from fatigue.verify.recount.anew.point import OnePass, Values
 from fatigue.verify.recount.anew.rounding import Bounds
