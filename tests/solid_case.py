@@ -140,7 +140,9 @@ def case_of(model, shapes, toes, form):
     for mode, u in enumerate(shapes, 1):
         force = model.element_forces(u)[rows]
         table = pd.DataFrame(force.reshape(-1, 3), columns=FORCE[:3]).assign(**dict.fromkeys(FORCE[3:], 0.0))
-        forces.append(table.assign(mode=mode, node=bricks[rows].ravel() + 1, element=np.repeat(rows + 1, bricks.shape[1])))
+        forces.append(
+            table.assign(mode=mode, node=bricks[rows].ravel() + 1, element=np.repeat(rows + 1, bricks.shape[1]))
+        )
     forces = pd.concat(forces, ignore_index=True)
     if form == "element_forces":
         return SolidCase(tables | {"element_forces": forces, "weld_elements": sides}, {})

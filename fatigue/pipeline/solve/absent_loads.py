@@ -113,13 +113,13 @@ def _component_warnings(
     if without.any() and not found.largest[:, 3:].any():
         told = {3, 4, 5}
         what = "all moments of all welds are zero, although forces act across the plates"
-        remedy = "Give mx_Nmm, my_Nmm, mz_Nmm as well: a solid model has none, and needs shells along the welds"
+        remedy = "Give mx_Nmm, my_Nmm, mz_Nmm as well; of solid elements, which have none, give weld_columns"
         yield Problem("no_moments", f"{file}: columns mx_Nmm, my_Nmm, mz_Nmm", what, remedy, names.size)
     elif without.any():
         some = names[without]
         what = "all moments of the weld are zero in every mode, and other welds have some"
         what += f"; so are those of {few(some[1:].tolist())}" if some.size > 1 else ""
-        remedy = "Give its moments as well: elements without rotations cannot be assessed"
+        remedy = "Give its moments as well; of solid elements, which have none, give its rows of weld_columns"
         yield Problem("no_moments", f"{file}: weld {some[0]}", what, remedy, some.size)
     absent = set(np.flatnonzero(~found.largest.any(axis=0)).tolist()) - told
     lost = sorted(absent - _left_out_by_plane_models(absent, found.flat_axis, len(coordinates)))

@@ -213,7 +213,9 @@ def _side_forces(body: Body) -> SideForces:
     of_sides = forces.of(np.concatenate(list(sides.values())))
     if body.mesh is not None:
         lines_file = case.resolve(files.weld_nodes).name
-        warnings += side_warnings(body.lines, of_sides, sides, body.mesh, lines_file, weld_elements.name, set(body.solids.welds))
+        warnings += side_warnings(
+            body.lines, of_sides, sides, body.mesh, lines_file, weld_elements.name, set(body.solids.welds)
+        )
     of_loads, about_loads = element_forces_of_loads(body, np.concatenate(list(sides.values())))
     if of_loads:
         of_sides, warnings = together([of_sides, *of_loads]), warnings + about_loads

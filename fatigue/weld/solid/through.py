@@ -97,9 +97,9 @@ def _stack(skin: Skin, number: int) -> _Stack | str:
     passed: list[int] = []
     while True:
         solid, side = divmod(face, SIDES)
-        form = FORMS[int(solids.corners[solid])]
-        kind = _NAMES[int(solids.corners[solid])]
         corner, mid = solids.corner[solid], solids.mid[solid]
+        size = int((corner != NONE).sum())
+        form, kind = FORMS[size], _NAMES[size]
         behind, behind_corners = form.opposite[side]
         if behind < 0:
             return f"element {solids.element[solid]}, a {kind}, has no face opposite: the columns of nodes end there"

@@ -10,8 +10,8 @@ import pytest
 from fatigue.errors import DataError
 from fatigue.readers.convert.convert import convert
 from fatigue.readers.convert.options import ConvertOptions, WeldSources
-from fatigue.readers.convert.weld_lines import find_welds, list_welds
 from fatigue.readers.convert.weld_forces import with_forces_only
+from fatigue.readers.convert.weld_lines import find_welds, list_welds
 from fatigue.readers.foreign.read import read_forces, read_model
 from fatigue.readers.neutral.forces.convention import COMPONENTS
 from tests.command_line import assess, fatigue
@@ -30,7 +30,7 @@ def files(request, tmp_path_factory):
     (folder / "tee.bdf").write_text(solid_bulk(case))
     (folder / "tee.op2").write_bytes(modal_op2(case.results, word=8))
     time = np.arange(300) / 100
-    q = np.stack([0.01 * (k + 1) * np.sin((3 * k + 2) * time) for k in range(4)])
+    q = np.stack([2e-5 * (k + 1) * np.sin((3 * k + 2) * time) for k in range(4)])
     rows = [f"{t:.9g}," + ",".join(f"{x:.9g}" for x in q[:, k]) for k, t in enumerate(time)]
     (folder / "straight.csv").write_text("\n".join(["time," + ",".join(f"q_{k}" for k in range(1, 5)), *rows]) + "\n")
     return ConvertOptions(
@@ -222,3 +222,44 @@ def test_forces_of_a_part_leave_welds_out(files, tmp_path):
     row = next(row for row in with_forces_only(found, some).rows if row.line == NAMES[0])
     assert row.status == "excluded"
     assert f"1 of {cut.elements.size} elements have no grid point forces" in row.reason
+
+
+def test_lives_are_those_of_a_case_made_by_hand(files, converted, tmp_path):
+    """A case of forces and moments summed over the columns by hand, of the model's own K u, has the same lives."""
+    _, case = converted
+    body = tmp_path / "hand"
+    body.mkdir()
+    for name in ("modes.csv", "welds.csv", "weld_nodes.csv", "nodes.parquet", "elements.parquet", "q_straight.parquet"):
+        (body / name).write_bytes((files.out / name).read_bytes())
+    sides, nodes = rows_of(files.out / "weld_elements.csv"), rows_of(files.out / "weld_nodes.csv")
+    columns = rows_of(files.out / "weld_columns.csv")
+    lines = [",".join(("weld", "mode", "node", *COMPONENTS))]
+    for station in nodes:
+        own = [row["element"] for row in sides if row["weld"] == station["weld"]]
+        key = station["weld"], station["order"]
+        column = {row["node"] for row in columns if (row["weld"], row["order"]) == key}
+        middle = np.array([station[f"{a}_mm"] for a in "xyz"])
+        for mode in range(1, 5):
+            total = np.zeros(6)
+            for element in own:
+                for at, f in zip(case.model.bricks[element - 1], case.force[mode - 1, element - 1], strict=True):
+                    if int(at) + 1 in column:
+                        total += [*f, *np.cross(case.model.xyz[at] - middle, f)]
+            lines.append(",".join(map(str, (station["weld"], mode, station["node"], *total.tolist()))))
+    (body / "nodal_forces.csv").write_text("\n".join(lines) + "\n")
+    text = (files.out / "case.toml").read_text()
+    gone = ("weld_columns", "element_forces", "weld_elements", "register", "force_convention")
+    kept = [line for line in text.splitlines() if not line.startswith(gone)]
+    kept.insert(kept.index("[body]") + 1, 'nodal_forces = "nodal_forces.csv"\nforce_convention = "on_element"')
+    (body / "case.toml").write_text("\n".join(kept) + "\n")
+    tables = []
+    for number, folder in enumerate((files.out, body)):
+        out = tmp_path / f"result_{number}"
+        ended = assess(folder / "case.toml", "-o", out, "--exit-zero")
+        assert ended.returncode == 0, ended.stderr
+        tables.append(pq.read_table(out / "nodes.parquet"))
+    of_files, by_hand = tables
+    assert of_files.select(["weld", "node", "surface"]).equals(by_hand.select(["weld", "node", "surface"]))
+    lives = [np.array(table["life_km"].to_pylist(), float) for table in tables]
+    assert np.isfinite(lives[0]).sum() > 10
+    assert lives[0] == pytest.approx(lives[1], rel=1e-5, nan_ok=True)  # forces of the file are in single precision

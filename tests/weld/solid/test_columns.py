@@ -1,6 +1,7 @@
 """Columns of solid faces collapse to the consistent forces of the line: any traction, uneven layers, any order."""
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -32,8 +33,8 @@ def face(s, z, traction, quadratic):
         for k in range(0, len(z) - 1, step):
             for u, a in zip(GAUSS, WEIGHT, strict=True):
                 for v, b in zip(GAUSS, WEIGHT, strict=True):
-                    l, h = (s[i + step] - s[i]) / 2, (z[k + step] - z[k]) / 2
-                    load = a * b * l * h * traction(s[i] + l * (1 + u), z[k] + h * (1 + v))
+                    w, h = (s[i + step] - s[i]) / 2, (z[k + step] - z[k]) / 2
+                    load = a * b * w * h * traction(s[i] + w * (1 + u), z[k] + h * (1 + v))
                     for (p, q), value in shapes(u, v, quadratic).items():
                         force[at[i + p, k + q]] += value * load
     nodes = sorted(at, key=at.get)
@@ -81,13 +82,11 @@ def resultants(line, sigma, t, degree):
     point, weight = np.polynomial.legendre.leggauss(degree)
     matrix, s = np.zeros((2, line.node.size)), line.xyz[:, 0]
     corner = np.flatnonzero(~line.edge_mid)
-    for a, b in zip(corner[:-1], corner[1:], strict=True):
+    for a, b in pairwise(corner):
         for xi, w in zip(point, weight, strict=True):
             here = s[a] + (s[b] - s[a]) * (1 + xi) / 2
-            if b - a == 1:
-                shape = [(1 - xi) / 2, (1 + xi) / 2]
-            else:
-                shape = [xi * (xi - 1) / 2, 1 - xi * xi, xi * (xi + 1) / 2]
+            linear, parabolic = [(1 - xi) / 2, (1 + xi) / 2], [xi * (xi - 1) / 2, 1 - xi * xi, xi * (xi + 1) / 2]
+            shape = linear if b - a == 1 else parabolic
             z = t / 2 * point
             values = np.array([sigma(here, one) for one in z])
             f, m = t / 2 * weight @ values, t / 2 * weight @ (z * values)
@@ -165,7 +164,7 @@ def test_rotating_the_model_rotates_nothing_that_is_read():
 def test_order_within_a_column_and_names_of_nodes_do_not_matter():
     """Nodes of a column in any order, under any numbers, give the same force."""
     line, columns, forces, rng = random_columns(2)
-    mixed = np.concatenate([rng.permutation(np.arange(a, b)) for a, b in zip(columns.begin, columns.begin[1:])])
+    mixed = np.concatenate([rng.permutation(np.arange(a, b)) for a, b in pairwise(columns.begin)])
     other = Columns(columns.begin, columns.node[mixed] + 7, columns.xyz[mixed])
     assert np.allclose(
         collapsed(columns, line.xyz, forces), collapsed(other, line.xyz, forces[mixed]), rtol=1e-13, atol=1e-13

@@ -21,6 +21,8 @@ def marked_edges(
     ------
     DataError : an unknown set or marker, marks that lie on no edge, neighbouring nodes of a list that no edge joins
     """
+    if not (sources.sets or sources.markers or lists):
+        return [{} for _ in surfaces]
     index = {int(n): k for k, n in enumerate(model.mesh.node)}
     edge_of: list[dict[tuple[int, int], int]] = []
     for surface in surfaces:

@@ -10,6 +10,7 @@ from fatigue.errors import DataError, Problem, refuse
 from fatigue.readers.convert.coordinate_lines import GivenLine
 from fatigue.readers.foreign.fe.model import FeModel
 from fatigue.readers.neutral.register.weld_register import RegisterRow
+from fatigue.weld.along.corridor import local_edges
 from fatigue.weld.along.path import Gap, edges_along
 from fatigue.weld.cuts import WeldCut
 from fatigue.weld.detection import Key, Topology, classify, topology
@@ -65,7 +66,9 @@ def lines_of(surfaces: Sequence[Surface], given: Sequence[GivenLine]) -> list[li
     left = list(given)
     found: list[list[GivenLine]] = []
     for surface in surfaces[:-1]:
-        own = [line for line in left if not isinstance(edges_along(surface.topo, line.polyline, line.tolerance), Gap)]
+        local = local_edges(surface.topo)
+        near = [edges_along(surface.topo, local, line.polyline, line.tolerance) for line in left]
+        own = [line for line, found_there in zip(left, near, strict=True) if not isinstance(found_there, Gap)]
         left = [line for line in left if line not in own]
         found.append(own)
     return [*found, left]

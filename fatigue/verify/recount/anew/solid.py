@@ -29,7 +29,9 @@ def solid_columns(inputs: RecountInputs, sources: Sequence[str]) -> dict[str, di
     stations = read_rows_where(inputs.path("weld_nodes"), "weld", sources)
     named = rows.merge(stations[["weld", "order", "node"]], on=["weld", "order"], suffixes=("", "_of_station"))
     found: dict[str, dict[int, Column]] = {}
-    for weld, station, node, x, y, z in named[["weld", "node_of_station", "node", "x", "y", "z"]].itertuples(index=False):
+    for weld, station, node, x, y, z in named[["weld", "node_of_station", "node", "x", "y", "z"]].itertuples(
+        index=False
+    ):
         found.setdefault(weld, {}).setdefault(int(station), {})[int(node)] = np.array([x, y, z], dtype=float)
     return found
 
