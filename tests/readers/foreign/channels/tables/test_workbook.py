@@ -128,6 +128,18 @@ def test_a_first_sample_that_is_missing_hides_no_column(tmp_path):
     assert "sample 1" in problem.where
 
 
+def test_time_before_every_curve(tmp_path):
+    """The same again is one; another is refused, and nothing is taken for the other's."""
+    rows = [["time", "q_3", "time", "q_8"], *([t, a, t, b] for t, a, b in NUMBERS)]
+    (group,) = read_channels(write(tmp_path / "run.xlsx", q=rows))
+    assert [one.name for one in group.channels] == ["q_3", "q_8"]
+    np.testing.assert_allclose(group.time, T, rtol=1e-15)
+    rows = [rows[0], *([t, a, 2 * t, b] for t, a, b in NUMBERS)]
+    (group,) = read_channels(write(tmp_path / "run.xlsx", q=rows))
+    assert "2 of its channels are named time, and they differ" in group.without_time
+    assert refused(tmp_path / "run.xlsx").code == "several_times"
+
+
 def test_hidden_sheets_are_left_out(tmp_path):
     """They hold what nobody looks at; it is told."""
     path = tmp_path / "run.xlsx"
