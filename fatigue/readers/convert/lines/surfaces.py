@@ -10,6 +10,7 @@ from fatigue.errors import DataError, Problem, refuse
 from fatigue.readers.convert.coordinate_lines import GivenLine
 from fatigue.readers.foreign.fe.model import FeModel
 from fatigue.readers.neutral.register.weld_register import RegisterRow
+from fatigue.weld.along.corridor import local_edges
 from fatigue.weld.along.path import Gap, edges_along
 from fatigue.weld.cuts import WeldCut
 from fatigue.weld.detection import Key, Topology, classify, topology
@@ -63,9 +64,12 @@ def _welded(topo: Topology, model: FeModel) -> dict[int, Key]:
 def lines_of(surfaces: Sequence[Surface], given: Sequence[GivenLine]) -> list[list[GivenLine]]:
     """Given lines of each surface: of a line that several could have, the first that it lies on, else the last."""
     left = list(given)
+    if not given:
+        return [[] for _ in surfaces]
     found: list[list[GivenLine]] = []
     for surface in surfaces[:-1]:
-        own = [line for line in left if not isinstance(edges_along(surface.topo, line.polyline, line.tolerance), Gap)]
+        topo, local = surface.topo, local_edges(surface.topo)
+        own = [line for line in left if not isinstance(edges_along(topo, local, line.polyline, line.tolerance), Gap)]
         left = [line for line in left if line not in own]
         found.append(own)
     return [*found, left]
