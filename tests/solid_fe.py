@@ -1,4 +1,4 @@
-"""A small finite element program of bricks: 8 nodes with incompatible modes, 20 nodes; it delivers element nodal forces.
+"""A small finite element program of bricks of 8 nodes, with incompatible modes, and of 20: element nodal forces.
 
 Units N, mm, MPa. Three degrees of freedom per node. Nodes of a brick: round its bottom, round its top, then the
 mid-side nodes round the bottom, between bottom and top, and round the top.

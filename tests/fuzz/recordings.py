@@ -39,6 +39,10 @@ def recordings(folder: Path) -> Iterator[tuple[str, Path, bool]]:
     yield "solution punch", folder / "q.pch", True
     write_results(folder / "q.res", T, Q, ("Q1", "Q2", "Q3"))
     yield "adams results", folder / "q.res", True
+    legend = "".join(f"{letter}: {name}\n" for letter, name in zip("ABCD", ["Time (sec)", *NAMES], strict=True))
+    rows = "".join("\t".join(f"{value:.9g}" for value in row) + "\n" for row in np.vstack([T, Q]).T)
+    (folder / "q.tab").write_text(legend + "\n" + rows)
+    yield "table with a legend", folder / "q.tab", True
     yield from _by_packages(folder)
 
 

@@ -52,9 +52,10 @@ class Body:
 
     ``welds`` are those to assess, as the weld register has them; ``in_tables`` all welds, as the tables have them.
     ``register`` tells which are which, ``joints`` where lines of one name were joined. ``lines`` has one line per weld,
-    in the order of ``welds`` and not yet split at kinks; ``curves`` holds every curve a weld asks for; ``throats`` are
-    those of the welds that have one, by their names; ``compared`` static load cases and endurance lines; ``points`` are
-    the stress points, None without them; ``solids`` the welds of solid elements; ``mesh`` serves the balance check and pictures; ``conversion`` is what
+    in the order of ``welds`` and not yet split at kinks; ``solids`` has the columns of those of solid elements;
+    ``curves`` holds every curve a weld asks for; ``throats`` are those of the welds that have one, by their names;
+    ``compared`` static load cases and endurance lines; ``points`` are the stress points, None without them; ``mesh``
+    serves the balance check and pictures; ``conversion`` is what
     ``fatigue convert`` recorded, its audit included; ``warnings`` are about these files.
     """
 

@@ -17,7 +17,7 @@ from fatigue.weld.solid.folded import held_moments, seen_from_the_top
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Solids:
-    """The columns of solid welds by the name they are assessed under; false of a body of shells, which costs nothing."""
+    """The columns of solid welds by the name they are assessed under; false of a body of shells."""
 
     welds: Mapping[str, SolidWeld]
 

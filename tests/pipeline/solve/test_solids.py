@@ -69,7 +69,7 @@ def test_the_t_joint_of_bricks_is_that_of_statics_and_of_shells(h, layers, quadr
 
 @pytest.mark.parametrize(("h", "quadratic"), [(100 / 6, False), (12.5, False), (6.25, False), (25.0, True)])
 def test_with_lateral_contraction_the_middle_of_the_toe_is_that_of_shells(h, quadratic, tmp_path):
-    """Poisson 0.3 disturbs the edges of the plate only: within 3 % at mid-width, on three meshes and another element."""
+    """Poisson 0.3 disturbs the edges of the plate only: within 3 % at mid-width, on three meshes."""
     bricks, shells = stress(tee_case(h, 2, quadratic, nu=0.3, modes=1), tmp_path), stress_of_shells(h, 0.3)
     for weld in TOES:
         a, b = (sum(found[weld]) for found in (bricks, shells))  # at the top

@@ -33,8 +33,8 @@ def face(s, z, traction, quadratic):
         for k in range(0, len(z) - 1, step):
             for u, a in zip(GAUSS, WEIGHT, strict=True):
                 for v, b in zip(GAUSS, WEIGHT, strict=True):
-                    l, h = (s[i + step] - s[i]) / 2, (z[k + step] - z[k]) / 2
-                    load = a * b * l * h * traction(s[i] + l * (1 + u), z[k] + h * (1 + v))
+                    w, h = (s[i + step] - s[i]) / 2, (z[k + step] - z[k]) / 2
+                    load = a * b * w * h * traction(s[i] + w * (1 + u), z[k] + h * (1 + v))
                     for (p, q), value in shapes(u, v, quadratic).items():
                         force[at[i + p, k + q]] += value * load
     nodes = sorted(at, key=at.get)
@@ -82,7 +82,7 @@ def resultants(line, sigma, t, degree):
     point, weight = np.polynomial.legendre.leggauss(degree)
     matrix, s = np.zeros((2, line.node.size)), line.xyz[:, 0]
     corner = np.flatnonzero(~line.edge_mid)
-    for a, b in zip(corner[:-1], corner[1:], strict=True):
+    for a, b in pairwise(corner):
         for xi, w in zip(point, weight, strict=True):
             here = s[a] + (s[b] - s[a]) * (1 + xi) / 2
             linear, parabolic = [(1 - xi) / 2, (1 + xi) / 2], [xi * (xi - 1) / 2, 1 - xi * xi, xi * (xi + 1) / 2]

@@ -1,5 +1,6 @@
 """What is in a recording of any format: groups, channels, units, rates, starts and gaps."""
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,7 +11,6 @@ import numpy as np
 from fatigue.errors import Problem, given_path
 from fatigue.readers.foreign.channels.group import ChannelGroup
 from fatigue.readers.foreign.read import read_channels, recognise
-from fatigue.readers.units.channel_names import channel
 
 STEP_TOLERANCE = 1e-3  # of a step, as for histories
 
@@ -24,8 +24,10 @@ class ListedGroup:
     name : in the file, empty where the file is one group
     channels : names and units
     samples : of each channel
-    start, step, duration : [s]; the step is (last - first) / (samples - 1); NaN without time
+    start, step, duration : [s]; the step is (last - first) / (samples - 1) where steps are even, else the median one;
+        NaN without time
     is_even : whether all steps are this one within a thousandth of it
+    gaps : start and length of every step that is longer than one and a half [s]
     without_time : why there is no time; empty where there is one
     """
 
@@ -36,6 +38,7 @@ class ListedGroup:
     step: float
     duration: float
     is_even: bool
+    gaps: tuple[tuple[float, float], ...]
     without_time: str
 
 
@@ -61,6 +64,7 @@ class Recording:
                     "step_s": _known(one.step),
                     "duration_s": _known(one.duration),
                     "is_even": one.is_even,
+                    "gaps": [{"from_s": begin, "length_s": length} for begin, length in one.gaps],
                     "without_time": one.without_time,
                     "channels": [{"channel": name, "unit": unit} for name, unit in one.channels],
                 }
@@ -78,10 +82,13 @@ class Recording:
             time = one.without_time or f"from {one.start:.9g} s for {one.duration:.9g} s, every {one.step:.6g} s"
             if not one.without_time and one.step > 0:
                 time += f" ({1.0 / one.step:.6g} Hz)" + ("" if one.is_even else ", in uneven steps")
+            if one.gaps:
+                begin, length = one.gaps[0]
+                time += (
+                    f"; {len(one.gaps)} gap{'s' * (len(one.gaps) != 1)}, the first at {begin:.9g} s of {length:.6g} s"
+                )
             lines.append(f"{name}{count}, {time}")
-            lines += [
-                f"  {name}" + (f" [{unit}]" if unit and not channel(name).unit else "") for name, unit in one.channels
-            ]
+            lines += [f"  {_with_unit(channel, unit)}" for channel, unit in one.channels]
         return "\n".join([*lines, *(f"note   {warning}" for warning in self.warnings)])
 
 
@@ -103,11 +110,21 @@ def _listed(group: ChannelGroup) -> ListedGroup:
     if group.time is None or group.time.size < 2:
         reason = group.without_time or ("no time" if group.time is None else "")
         start = float("nan") if group.time is None or not group.time.size else float(group.time[0])
-        return ListedGroup(group.name, channels, group.samples, start, float("nan"), float("nan"), False, reason)
+        return ListedGroup(group.name, channels, group.samples, start, float("nan"), float("nan"), False, (), reason)
     first, last = float(group.time[0]), float(group.time[-1])
     step = (last - first) / (group.time.size - 1)
-    even = bool(step > 0.0 and np.abs(np.diff(group.time) - step).max() <= STEP_TOLERANCE * step)
-    return ListedGroup(group.name, channels, group.samples, first, step, last - first, even, "")
+    steps = np.diff(group.time)
+    even = bool(step > 0.0 and np.abs(steps - step).max() <= STEP_TOLERANCE * step)
+    gaps: tuple[tuple[float, float], ...] = ()
+    if not even:
+        step = float(np.median(steps))
+        gaps = tuple((float(group.time[k]), float(steps[k])) for k in np.flatnonzero(steps > 1.5 * step))
+    return ListedGroup(group.name, channels, group.samples, first, step, last - first, even, gaps, "")
+
+
+def _with_unit(name: str, unit: str) -> str:
+    """Name of a channel and its unit, once where the name has it already."""
+    return name if not unit or re.search(rf"[\[(]\s*{re.escape(unit)}\s*[\])]\s*\Z", name) else f"{name} [{unit}]"
 
 
 def _known(value: float) -> float | None:

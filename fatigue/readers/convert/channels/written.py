@@ -1,7 +1,8 @@
 """Channels of a recording as a table that a case reads: ``time_s`` and a column for each, with its unit."""
 
 import csv
-from collections.abc import Mapping, Sequence
+from collections import Counter
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -72,35 +73,72 @@ def write_channels(
     Raises
     ------
     CaseError : another ending
-    DataError : any refusal of the readers, no such group or channel, no time or uneven steps, a missing sample, two
-        columns of one name, a file in the way
+    DataError : any refusal of the readers, no such group or channel, no time or uneven steps, two columns of one
+        name, a file in the way, the recording itself among them
     """
     path, output = given_path(path, "path"), given_path(output, "output")
     if output.suffix.lower() not in ENDINGS:
-        what = f"the table ends in {output.suffix or 'nothing'!r}"
+        what = f"the table ends in {output.suffix!r}" if output.suffix else "the name of the table has no ending"
         raise CaseError(Problem("unknown_format", str(output), what, f"Name it {' or '.join(ENDINGS)}"))
+    if output.exists() and path.exists() and output.samefile(path):
+        raise DataError(Problem("onto_itself", str(output), "this is the recording itself", "Name another table"))
     if output.exists() and not force:
         raise DataError(Problem("foreign_file", str(output), "the file exists", "Use --force, or name another"))
-    renamed = dict(_renamed(one) for one in channels)
-    found = _chosen(path, read_channels(path), group, tuple(renamed))
+    groups = read_channels(path)
+    there = {one.name for some in groups for one in some.channels}
+    renamed = dict(_renamed(one, there) for one in channels)
+    found = _chosen(path, groups, group, tuple(renamed))
     at = [k for k, one in enumerate(found.channels) if not renamed or one.name in renamed]
     columns = tuple((renamed.get(found.channels[k].name) or found.channels[k].name, found.channels[k].unit) for k in at)
     time, step = _even_time(path, found)
+    columns, numbered = _numbered([found.channels[k].name for k in at], columns, f"{path}, {found.called}")
     _refuse_names(path, [name for name, _ in columns])
     values = found.values(at)
-    bad = ~np.isfinite(values)
-    if bad.any():
-        row, sample = np.unravel_index(int(bad.argmax()), bad.shape)
-        where = f"{path}, {found.called}, channel {columns[int(row)][0]!r}, sample {int(sample) + 1}"
-        remedy = "Leave the channel out (--channel names those to take), or cut the record"
-        raise DataError(Problem("not_a_number", where, "a value is missing or no number", remedy))
     with replacing(output) as unfinished:
         (_write_parquet if output.suffix.lower() == ".parquet" else _write_csv)(unfinished, time, columns, values)
-    return WrittenChannels(output, found.name, columns, time.size, float(time[0]), step, found.warnings)
+    missing = _missing(path, found, columns, values)
+    warnings = (*found.warnings, *numbered, *missing)
+    return WrittenChannels(output, found.name, columns, time.size, float(time[0]), step, warnings)
 
 
-def _renamed(asked: str) -> tuple[str, str]:
-    name, is_given, column = asked.partition("=")
+def _missing(
+    path: Path, group: ChannelGroup, columns: Sequence[tuple[str, str]], values: np.ndarray[Any, Any]
+) -> list[Problem]:
+    """Warning about samples that are missing: strain gauges flag them, histories and loads of a case refuse them."""
+    bad = ~np.isfinite(values)
+    if not bad.any():
+        return []
+    row, sample = np.unravel_index(int(bad.argmax()), bad.shape)
+    where = f"{path}, {group.called}, channel {columns[int(row)][0]!r}"
+    count = f"{int(bad.sum())} of all samples"
+    what = f"{count} are missing or no numbers, sample {int(sample) + 1} the first; they are so in the table"
+    remedy = "Gauges leave them out; for histories and loads leave the channel out, or cut the record"
+    return [Problem("missing_samples", where, what, remedy)]
+
+
+def _numbered(
+    names: Sequence[str], columns: Sequence[tuple[str, str]], where: str
+) -> tuple[tuple[tuple[str, str], ...], list[Problem]]:
+    """Columns of channels that have one name in the file, told apart by numbers in their order there, and a warning."""
+    twice = {name for name in names if names.count(name) > 1}
+    count: Counter[str] = Counter()
+    found = []
+    for name, (column, unit) in zip(names, columns, strict=True):
+        count[name] += 1
+        found.append((f"{column} ({count[name]})" if name in twice else column, unit))
+    listed = ", ".join(sorted(map(repr, twice)))
+    what = f"several channels have one name, {listed}: their columns are numbered in the order of the file"
+    remedy = "Check which is which, or give them names of their own where they are recorded"
+    return tuple(found), [Problem("names_twice", where, what, remedy)] if twice else []
+
+
+def _renamed(asked: str, there: Collection[str]) -> tuple[str, str]:
+    """Name of a channel and the column asked for it; a name may hold an equals sign itself."""
+    if asked in there:
+        return asked, ""
+    name, is_given, column = asked.rpartition("=")
+    if not is_given or name not in there:
+        name, is_given, column = asked.partition("=")
     return (name, column) if is_given else (asked, "")
 
 
@@ -172,4 +210,6 @@ def _write_csv(
         writer.writerow([TIME, *(name for name, _ in columns)])
         if any(unit for _, unit in columns):
             writer.writerow(["s", *(unit or "-" for _, unit in columns)])
-        writer.writerows([repr(float(x)) for x in row] for row in np.column_stack([time, values.T]))
+        writer.writerows(
+            ["" if np.isnan(x) else repr(float(x)) for x in row] for row in np.column_stack([time, values.T])
+        )

@@ -11,7 +11,7 @@ from fatigue.errors import DataError, Problem, refuse
 from fatigue.readers.foreign.abaqus.keywords import Data, Keyword, keywords
 from fatigue.readers.foreign.abaqus.placed import Placed, placed
 from fatigue.readers.foreign.export.elements import abaqus_form, element_of
-from fatigue.readers.foreign.fe.model import FeModel, Section, Shell, Solid, shell_mesh, solid_mesh
+from fatigue.readers.foreign.fe.model import FeModel, Section, Shell, Solid, others_left_out, shell_mesh, solid_mesh
 
 _GENERATED = frozenset({"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY"})
 _MOST_PROBLEMS = 20
@@ -78,6 +78,7 @@ def read_inp(path: Path) -> FeModel:
         frame=np.zeros((0, 3, 3)),
         unconfirmed_sections=unconfirmed,
         other_cards=others,
+        warnings=others_left_out(str(path), others),
         included=included,
         solids=solid_mesh(str(path), grids, solids, shells),
     )

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from fatigue.errors import DataError, Problem
 from fatigue.readers.foreign.ansys.blocks import Lines, fields_of, number, numbers, whole_numbers
 from fatigue.readers.foreign.ansys.elements import SECTIONED, SHELLS, SOLIDS, element_of
-from fatigue.readers.foreign.fe.model import FeModel, Section, Shell, Solid, shell_mesh, solid_mesh
+from fatigue.readers.foreign.fe.model import FeModel, Section, Shell, Solid, others_left_out, shell_mesh, solid_mesh
 
 _HEAD = re.compile(r"(?im)^(?:NBLOCK,|EBLOCK,|/PREP7|/COM,)")
 _REAL = 1_000_000_000  # added to the numbers of real constants, so that they are told from sections
@@ -255,7 +255,7 @@ def _model(source: str, archive: Archive) -> FeModel:
         unconfirmed_sections=unconfirmed,
         node_sets=sets,
         other_cards=dict(others),
-        warnings=warnings,
+        warnings=(*warnings, *others_left_out(str(source), others)),
         solids=solid_mesh(source, archive.nodes, solids, shells),
     )
 

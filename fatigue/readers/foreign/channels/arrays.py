@@ -13,6 +13,8 @@ from fatigue.errors import DataError, Problem
 from fatigue.readers.foreign.channels.group import ChannelGroup
 from fatigue.readers.foreign.channels.variables import Unreadable, groups_of_variables, in_order
 
+_AS_ARRAYS = "Save time and values as arrays of numbers: np.savez('run.npz', t=t, q=q)"
+
 
 def read_npy(path: Path) -> tuple[ChannelGroup, ...]:
     """Channels of one array: a matrix whose first column is time, or a structured one; see ``variables``.
@@ -27,7 +29,7 @@ def read_npy(path: Path) -> tuple[ChannelGroup, ...]:
         what, remedy = "it holds pickled objects, which are never read", "Save arrays of numbers"
         raise DataError(Problem("pickled", str(path), what, remedy))
     variable = _variable(array)
-    return groups_of_variables(path, variable if isinstance(variable, dict) else {path.stem: variable})
+    return groups_of_variables(path, variable if isinstance(variable, dict) else {path.stem: variable}, _AS_ARRAYS)
 
 
 def read_npz(path: Path) -> tuple[ChannelGroup, ...]:
@@ -48,10 +50,10 @@ def read_npz(path: Path) -> tuple[ChannelGroup, ...]:
                 if member.filename.endswith(".npy"):
                     with archive.open(member) as file:
                         array = _array(path, file, member.file_size, f", array {name!r}")
-                    variables[name] = Unreadable("pickled") if array is None else _variable(array)
+                    variables[name] = Unreadable("a pickled object") if array is None else _variable(array)
     except (zipfile.BadZipFile, EOFError, NotImplementedError, RuntimeError, OSError) as error:
         raise _damaged(path, "", error) from None
-    return groups_of_variables(path, in_order(variables))
+    return groups_of_variables(path, in_order(variables), _AS_ARRAYS)
 
 
 def _array(path: Path, file: IO[bytes], size: int, which: str) -> NDArray[Any] | None:

@@ -14,6 +14,7 @@ from fatigue.errors import DataError, Problem
 from fatigue.readers.foreign.channels.group import ChannelGroup
 from fatigue.readers.foreign.channels.variables import Unreadable, cells, groups_of_variables, in_order
 
+AS_ARRAYS = "Save time and values as plain arrays: t = x.Time; q = x.Data; save('run.mat', 't', 'q', '-v7.3')"
 MOST_SPARSE = 1 << 27  # elements of a sparse matrix, most of which take no room in the file
 
 
@@ -39,8 +40,8 @@ def read_matlab(path: Path) -> tuple[ChannelGroup, ...]:
         what = f"two variables are called {name!r}"
         raise DataError(Problem("column_twice", str(path), what, "Save each once, with -append left out"))
     named = {key: value for key, value in read.items() if not (key.startswith("__") and key.endswith("__"))}
-    opaque = {"an object": Unreadable("timeseries, table or another")} if "__function_workspace__" in read else {}
-    return groups_of_variables(path, in_order({key: _plain(value) for key, value in named.items()} | opaque))
+    opaque = {"an object": Unreadable("a timeseries, a table or another")} if "__function_workspace__" in read else {}
+    return groups_of_variables(path, in_order({key: _plain(value) for key, value in named.items()} | opaque), AS_ARRAYS)
 
 
 def _plain(value: Any) -> Any:
@@ -49,7 +50,9 @@ def _plain(value: Any) -> Any:
         return {str(name): _plain(getattr(value, name)) for name in value._fieldnames}
     if scipy.sparse.issparse(value):
         return (
-            Unreadable("large sparse matrix") if math.prod(value.shape) > MOST_SPARSE else np.asarray(value.toarray())
+            Unreadable("a sparse matrix, too large to be filled")
+            if math.prod(value.shape) > MOST_SPARSE
+            else np.asarray(value.toarray())
         )
     return _of_array(value) if isinstance(value, np.ndarray) else value
 
@@ -58,7 +61,7 @@ def _of_array(value: np.ndarray[Any, Any]) -> Any:
     """An array of numbers, texts or cells, or an object in the shape of one."""
     if isinstance(value, MatlabOpaque | MatlabFunction):
         kind = value["s2"] if value.dtype.names and "s2" in value.dtype.names else "object"
-        return Unreadable(_class_name(kind))
+        return Unreadable(f"an object of the class {_class_name(kind)}")
     if value.dtype.kind == "U":
         return str(value.ravel()[0]) if value.size == 1 else tuple(str(text).strip() for text in value.ravel())
     if value.dtype == object:

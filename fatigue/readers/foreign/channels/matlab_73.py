@@ -11,7 +11,7 @@ import scipy.sparse
 
 from fatigue.errors import DataError, Problem
 from fatigue.readers.foreign.channels.group import ChannelGroup
-from fatigue.readers.foreign.channels.matlab import MOST_SPARSE
+from fatigue.readers.foreign.channels.matlab import AS_ARRAYS, MOST_SPARSE
 from fatigue.readers.foreign.channels.variables import Unreadable, cells, groups_of_variables, in_order
 
 _NUMBERS = frozenset(
@@ -39,16 +39,16 @@ def read_matlab_73(path: Path) -> tuple[ChannelGroup, ...]:
         said = " ".join(str(error).split())[:120] or type(error).__name__
         what = f"the MATLAB file is damaged or cut ({said})"
         raise DataError(Problem("mat_damaged", str(path), what, "Copy the file again, or save it anew")) from None
-    return groups_of_variables(path, in_order(variables))
+    return groups_of_variables(path, in_order(variables), AS_ARRAYS)
 
 
 def _plain(item: Any, file: Any, depth: int) -> Any:
     """A variable as ``variables`` takes it."""
     if depth > _DEEPEST:
-        return Unreadable("structure that contains itself")
+        return Unreadable("a structure that contains itself")
     kind = _text(item.attrs.get("MATLAB_class", b""))
     if "MATLAB_object_decode" in item.attrs or (kind and kind not in (*_NUMBERS, "char", "cell", "struct", "sparse")):
-        return Unreadable(kind or "object")
+        return Unreadable(f"an object of the class {kind}" if kind else "an object")
     if hasattr(item, "keys"):
         is_sparse = kind == "sparse" or "MATLAB_sparse" in item.attrs
         return _sparse(item) if is_sparse else _struct(item, file, depth)
@@ -95,7 +95,7 @@ def _sparse(item: Any) -> Any:
     rows, starts = int(item.attrs["MATLAB_sparse"]), np.asarray(item["jc"][()]).ravel()
     shape = (rows, starts.size - 1)
     if "data" not in item or rows * shape[1] > MOST_SPARSE:
-        return Unreadable("large or empty sparse matrix")
+        return Unreadable("a sparse matrix, empty or too large to be filled")
     parts = (np.asarray(item["data"][()]).ravel(), np.asarray(item["ir"][()]).ravel(), starts)
     return np.asarray(scipy.sparse.csc_array(parts, shape=shape).toarray())
 

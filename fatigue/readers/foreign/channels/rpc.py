@@ -120,7 +120,8 @@ def _values(path: Path, layout: _Layout, scale: NDArray[np.float64], at: Sequenc
     wanted = list(at)
     blocks, end = _stored(path, layout)
     found = np.concatenate([blocks[:, wanted].swapaxes(0, 1).reshape(len(wanted), -1), end[wanted]], axis=1)
-    return np.asarray(found * scale[wanted, None])
+    with np.errstate(invalid="ignore"):  # of numbers that are none, which are refused by their place
+        return np.asarray(found * scale[wanted, None])
 
 
 def _stored(path: Path, layout: _Layout) -> tuple[NDArray[Any], NDArray[Any]]:
@@ -135,7 +136,7 @@ def _stored(path: Path, layout: _Layout) -> tuple[NDArray[Any], NDArray[Any]]:
 
 def _filling(path: Path, layout: _Layout, frame: int, step: float) -> tuple[Problem, ...]:
     """Warning about a last frame that seems to be filled up: no key says how many of its samples were recorded."""
-    end = _stored(path, layout)[1]
+    end = _stored(path, layout)[1][:, -frame - 1 :]  # a group may be the whole record
     held = int(np.cumprod((end == end[:, -1:]).all(axis=0)[::-1]).sum())  # samples that equal the last one
     is_zero = not end[:, -1].any()
     filled = held if is_zero else held - 1

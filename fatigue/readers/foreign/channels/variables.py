@@ -25,14 +25,14 @@ from fatigue.readers.units.channel_names import channel
 _VALUES, _UNIT = ("values", "data", "value", "y", "samples"), ("unit", "units", "Unit", "Units")
 _NAME = ("label", "name", "blockName", "title", "Name")
 _MODES = re.compile(r"(?:eigen)?modes?(?:_?(?:ids?|n(?:o|r|umber)s?))?\Z", re.IGNORECASE)
+_NAMES = re.compile(r"(?:name|label|channel|signal)s?\Z", re.IGNORECASE)
 _NO_TIME = "none of its arrays is named time, and no matrix begins with an even time"
 _TIMELESS = "and there is no time"
-_AS_ARRAYS = "Save time and values as plain arrays: t = x.Time; q = x.Data; save('run.mat', 't', 'q', '-v7.3')"
 
 
 @dataclass(frozen=True, slots=True)
 class Unreadable:
-    """An object that cannot be read, by the name of its class."""
+    """What cannot be read, as messages call it: ``an object of the class timeseries``."""
 
     kind: str
 
@@ -63,8 +63,8 @@ class _Rest:
 _Found: TypeAlias = _Column | _Rest
 
 
-def groups_of_variables(path: Path, variables: Variables) -> tuple[ChannelGroup, ...]:
-    """Channels of all arrays, those on one time in one group.
+def groups_of_variables(path: Path, variables: Variables, remedy: str) -> tuple[ChannelGroup, ...]:
+    """Channels of all arrays, those on one time in one group; ``remedy`` says how to save time and values as arrays.
 
     Raises
     ------
@@ -84,8 +84,9 @@ def groups_of_variables(path: Path, variables: Variables) -> tuple[ChannelGroup,
     if not bases:
         code = "no_time" if any(one.why.endswith(_TIMELESS) for one in rest) else "no_channels"
         what = "no array in it is a channel" + (f": {told}" if told else "")
-        raise DataError(Problem(code, str(path), what, _AS_ARRAYS))
-    remedy = _AS_ARRAYS if any(one.is_object for one in rest) else "Nothing to do if they are no channels"
+        raise DataError(Problem(code, str(path), what, remedy))
+    if not any(one.is_object for one in rest):
+        remedy = "Nothing to do if they are no channels"
     warnings = (Problem("channels_left_out", str(path), f"left out: {told}", remedy),) if rest else ()
     return tuple(
         ChannelGroup(
@@ -151,9 +152,7 @@ def _columns(path: Path, group: str, variables: Variables, around: Sequence[Time
             for number, one in enumerate(value, 1):
                 yield from _of_structure(path, f"{called}({number})", one, times)
         elif isinstance(value, Unreadable):
-            yield _Rest(
-                called, f"is an object of the class {value.kind}, which can be read by the program alone that wrote it"
-            )
+            yield _Rest(called, f"is {value.kind}, which cannot be read", True)
 
 
 def _of_structure(path: Path, called: str, one: Variables, times: Sequence[Time]) -> Iterator[_Found]:
@@ -228,24 +227,36 @@ def _of_array(
         remedy = "Save another number of samples, or one vector per channel"
         raise DataError(Problem("ambiguous", where, f"{what}: which are channels cannot be told", remedy))
     rows = samples.T if seconds is not None and samples.shape[0] == seconds.size else samples
-    for one, row in zip(_named(name, len(rows), unit, beside), rows, strict=True):
+    for one, row in zip(_named(where, name, len(rows), unit, beside), rows, strict=True):
         yield _Column(group, one, row, seconds)
 
 
-def _named(name: str, count: int, unit: str, beside: Variables) -> list[RecordedChannel]:
-    """Channels of a matrix, by the lists of names and of numbers of modes beside it that have as many entries."""
+def _named(where: str, name: str, count: int, unit: str, beside: Variables) -> list[RecordedChannel]:
+    """Channels of a matrix, by the lists of names, units and numbers of modes beside it that have as many entries.
+
+    Raises
+    ------
+    DataError : several lists that may be its names
+    """
+    matrices = [
+        key for key, v in beside.items() if isinstance(v, np.ndarray) and np.squeeze(v).ndim == 2 and count in v.shape
+    ]
     lists = {key: value for key, value in beside.items() if isinstance(value, tuple) and len(value) == count}
-    own = [key for key in lists if name.lower() in re.split(r"[_.]", key.lower())]
-    chosen = own if len(own) == 1 else list(lists)
+    parts = {key: re.split(r"[_.]", key.lower()) for key in lists}
+    own = [key for key in lists if name.lower() in parts[key]]
+    shared = [key for key in lists if not any(other.lower() in parts[key] for other in matrices)]
+    units = [key for key in own or shared if parts[key][-1] in ("unit", "units")]
+    named = [key for key in own or shared if key not in units]
+    chosen = [key for key in named if _NAMES.search(key)] or named
+    if len(chosen) > 1:
+        what = f"its channels may be named by {' or '.join(map(repr, chosen))}"
+        raise DataError(Problem("ambiguous", where, what, f"Call the names {name}_names"))
     modes = _modes(count, beside)
-    if len(chosen) == 1:
-        names = list(lists[chosen[0]])
-        matrices = [v for v in beside.values() if isinstance(v, np.ndarray) and v.ndim > 1 and count in v.shape]
-        if len(matrices) > 1 and not own and min(min(v.shape) for v in matrices) > 1:
-            names = [f"{name} {one}" for one in names]
-    else:
-        names = [f"{name}_{mode}" if mode else f"{name}({k})" for k, mode in enumerate(modes, 1)]
-    return [RecordedChannel(one, unit, mode) for one, mode in zip(names, modes, strict=True)]
+    names = [f"{name}_{mode}" if mode else f"{name}({k})" for k, mode in enumerate(modes, 1)]
+    if chosen:
+        names = [one if own or len(matrices) < 2 else f"{name} {one}" for one in lists[chosen[0]]]
+    each = lists[units[0]] if len(units) == 1 else (unit,) * count
+    return [RecordedChannel(one, of, mode) for one, of, mode in zip(names, each, modes, strict=True)]
 
 
 def _modes(count: int, beside: Variables) -> list[int]:
@@ -266,14 +277,15 @@ def _alone(path: Path, group: str, variables: Variables) -> list[_Column] | None
         return None
     (name, matrix) = matrices[0]
     rows = matrix.T if matrix.shape[0] >= matrix.shape[1] else matrix
-    time = time_in_first(f"{path}, array {f'{group}.{name}' if group else name!r}", rows)
+    where = f"{path}, array {f'{group}.{name}' if group else name!r}"
+    time = time_in_first(where, rows)
     if time is None:
         return None
     with_time = [
         v for v in variables.values() if isinstance(v, tuple) and len(v) == len(rows) and channel(v[0]).is_time
     ]
     beside = {**variables, "": with_time[0][1:]} if len(with_time) == 1 else variables
-    named = _named(name, len(rows) - 1, "", beside)
+    named = _named(where, name, len(rows) - 1, "", beside)
     return [_Column(group, one, row, time) for one, row in zip(named, rows[1:], strict=True)]
 
 

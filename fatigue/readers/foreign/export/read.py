@@ -11,7 +11,7 @@ from fatigue.readers.foreign.export.elements import abaqus_form, element_of
 from fatigue.readers.foreign.export.layout import Block, blocks, solver_of
 from fatigue.readers.foreign.fe.assembly import FileBlocks, assemble
 from fatigue.readers.foreign.fe.force_rows import sharing_rows
-from fatigue.readers.foreign.fe.model import FeModel, Section, Shell, Solid, shell_mesh, solid_mesh
+from fatigue.readers.foreign.fe.model import FeModel, Section, Shell, Solid, others_left_out, shell_mesh, solid_mesh
 from fatigue.readers.foreign.fe.results import Eigenvalue, FeResults, ForceBlock, ShapeBlock
 from fatigue.readers.foreign.fe.static_case import Heading, heading
 
@@ -105,6 +105,7 @@ def read_export_model(path: Path) -> FeModel:
         frame=np.zeros((0, 3, 3)),
         unconfirmed_sections=unconfirmed,
         other_cards=others,
+        warnings=others_left_out(str(path), others),
         solids=solid_mesh(str(path), grids, solids, shells),
     )
 

@@ -173,6 +173,17 @@ def _element_problems(source: str, shells: Sequence[Shell | Solid], index: Mappi
     return problems
 
 
+def others_left_out(source: str, others: Mapping[str, int]) -> tuple[Problem, ...]:
+    """Warning about elements that are neither shells nor solids, by their types."""
+    if not others:
+        return ()
+    listed = ", ".join(f"{count} {name}" for name, count in sorted(others.items()))
+    what = f"elements that are neither shells nor solids are left out: {listed}"
+    return (
+        Problem("elements_left_out", source, what, "Nothing to do, unless a type is misspelt", sum(others.values())),
+    )
+
+
 def in_mm(model: FeModel, unit_length: float) -> FeModel:
     """Model in mm, from one whose unit of length is ``unit_length`` mm."""
     mesh = model.mesh

@@ -78,6 +78,7 @@ def read_header(path: Path, lines: Sequence[str], rows: NumberRows) -> Header:
     if names:
         refuse_broken_rows(path, lines, rows, names[0].line)
     if listed is not None:
+        refuse_broken_rows(path, lines, rows, max(lines_of_list))
         names.append(listed)
     channels = [[channel(name) for name in without_unit_one(row.cells)] for row in names]
     merged = _merged(path, names, channels) if names else [channel("")] * rows.width

@@ -30,6 +30,7 @@ _FREE_LABEL = re.compile(
 _TYPES = ("double", "float", "single", "real", "real*8", "float64", "float32", "numeric", "number")
 _OTHER_UNITS = ("rad", "deg", "n", "kn", "nm", "hz", "v", "mv", "pa", "mpa", "%", "m/s", "m/s^2", "mm/s", "volts")
 UNIT_LABEL = re.compile(r"\W*(units?|einheit(en)?|y_unit_label|unit_label|x_unit_label|dimension)\W*\Z", re.IGNORECASE)
+_QUANTITY = re.compile(r"[/^²³*]|\A[\d.]|\A(?:[munkcd]?m|ft|in)[23]\Z")  # its number is an exponent, not that of a mode
 _COUNT_LABEL = re.compile(r"\W*(channel|chan|ch|column|col|signal|kanal|spalte)s?\W*\Z", re.IGNORECASE)
 _MODE_LABEL = re.compile(r"\W*(modes?|moden?|no|nr|number|id|ids|mode[ _]?(no|nr|number|id)s?)\W*\Z", re.IGNORECASE)
 _HZ_LABEL = re.compile(r"(freq|eigenfreq|f\b|.*\bhz\b)", re.IGNORECASE)
@@ -76,11 +77,21 @@ def header_lines(head: Sequence[str], rows: NumberRows, listed: Collection[int])
         kind = _kind(cells, decimal_sign(rows))
         if kind == "numbers" and line.lstrip().startswith(COMMENTS) and _counts_columns(cells):
             continue
+        if kind == "names" and any(_states_units(row, cells) for row in found.rows if row.kind == "names"):
+            kind = "units"
         if kind == "free":
             found.free.append((k + 1, line))
         elif kind != "types":
             found.rows.append(HeaderRow(k + 1, cells, kind))
     return found
+
+
+def _states_units(names: HeaderRow, cells: Sequence[str]) -> bool:
+    """Whether a row below names is one of units, of whatever quantities: below the name of the time is one of time."""
+    timed = [below for name, below in zip(names.cells, cells, strict=True) if channel(name).is_time]
+    newly_named = (below for name, below in zip(names.cells, cells, strict=True) if not channel(name).mode)
+    is_below = any(below.strip("[](){}<> ").lower() in TIME_UNITS for below in timed)
+    return is_below and not any(channel(below).mode and not _QUANTITY.search(below) for below in newly_named)
 
 
 def decimal_sign(rows: NumberRows) -> Decimal:

@@ -8,6 +8,8 @@ import pyarrow.parquet as pq
 import pytest
 
 from fatigue.errors import CaseError, DataError
+from fatigue.gauges.measured.channel_file import Channel
+from fatigue.gauges.measured.record_files import open_records
 from fatigue.readers.convert.channels.listed import list_channels
 from fatigue.readers.convert.channels.written import write_channels
 from fatigue.readers.neutral.event.channel_file import read_channel
@@ -99,21 +101,20 @@ def test_several_groups_are_told_by_name_or_by_their_channels(tmp_path):
 
 
 def test_what_a_case_could_not_read_is_refused(tmp_path, archive):
-    """No time, uneven steps, a missing sample, names twice, an ending, a file in the way."""
+    """No time, uneven steps, names twice, an ending, a file in the way."""
     np.savez(tmp_path / "uneven.npz", time=np.where(np.arange(256) < 100, T, T + 1.0), a=VALUES[0])
     with pytest.raises(DataError, match="between samples 100 and 101"):
         write_channels(tmp_path / "uneven.npz", tmp_path / "x.csv")
-    np.savez(tmp_path / "missing.npz", time=T, a=np.where(np.arange(256) == 9, np.nan, 1.0), b=VALUES[0])
-    with pytest.raises(DataError, match="channel 'a', sample 10"):
-        write_channels(tmp_path / "missing.npz", tmp_path / "x.csv")
-    assert write_channels(tmp_path / "missing.npz", tmp_path / "x.csv", channels=["b"]).samples == 256
     with pytest.raises(DataError, match="two columns would be named 'load'"):
         write_channels(archive, tmp_path / "y.csv", channels=["strain=load", "load"])
     with pytest.raises(CaseError, match=r"ends in '\.txt'"):
         write_channels(archive, tmp_path / "y.txt")
+    (tmp_path / "x.csv").write_text("in the way")
     with pytest.raises(DataError, match="the file exists"):
         write_channels(archive, tmp_path / "x.csv")
     assert write_channels(archive, tmp_path / "x.csv", force=True).samples == 256
+    with pytest.raises(DataError, match="the recording itself"):
+        write_channels(tmp_path / "x.csv", tmp_path / "x.csv", force=True)
 
 
 def test_the_command(tmp_path, archive):
@@ -129,3 +130,70 @@ def test_the_command(tmp_path, archive):
     assert run("channels", archive, "--group", "a").returncode == 2
     assert run("channels", tmp_path / "none.mf4").returncode == 3
     assert run("channels", archive, "-o", tmp_path / "out.parquet").returncode == 3
+
+
+@pytest.mark.parametrize("ending", [".csv", ".parquet"])
+def test_gauges_read_what_is_written(tmp_path, ending):
+    """Strain with its unit and its missing samples, which are told when they are written."""
+    strain = np.where(np.arange(256) == 9, np.nan, VALUES[0])
+    np.savez(tmp_path / "run.npz", **{"time": T, "SG 1": strain})
+    out = tmp_path / f"table{ending}"
+    (problem,) = write_channels(tmp_path / "run.npz", out).warnings
+    assert problem.code == "missing_samples"
+    assert "1 of all samples are missing or no numbers, sample 10 the first" in problem.what
+    gauge = Channel("SG 1", "channels.csv", "SG 1", (), "", "ue")
+    (record,), _ = open_records([out], [gauge], 500.0)
+    np.testing.assert_array_equal(record.read(gauge), strain)
+    with pytest.raises(DataError, match="SG 1"):
+        read_channel(out, "SG 1", "-")
+
+
+@pytest.mark.parametrize(
+    ("head", "units", "step"),
+    [
+        ("time,a,b\nms,g,kN\n", ["g", "kN"], 0.002),
+        ("Time;a;b\n[ms];[ue];[km/h]\n", ["ue", "km/h"], 0.002),
+        ("time\ta\tb\ns\tm/s2\t1/min\n", ["m/s2", "1/min"], 2.0),
+        ("time,a [g],b\n", ["g", ""], 2.0),
+    ],
+)
+def test_a_row_of_units_is_read_whatever_they_are(tmp_path, head, units, step):
+    """Time in milliseconds is never taken for seconds because a channel beside it has an unknown unit."""
+    separator = next(sign for sign in ",;\t" if sign in head)
+    rows = "".join(separator.join(map(str, row)) + "\n" for row in ((0, 1, 2), (2, 3, 4), (4, 5, 6)))
+    (tmp_path / "run.csv").write_text(head + rows)
+    (group,) = list_channels(tmp_path / "run.csv").groups
+    assert [unit for _, unit in group.channels] == units
+    assert group.step == pytest.approx(step)
+
+
+def test_gaps_are_told(tmp_path):
+    """Where, how long, and the step of the rest."""
+    np.savez(tmp_path / "run.npz", time=np.where(np.arange(256) < 100, T, T + 1.0), a=VALUES[0])
+    listed = list_channels(tmp_path / "run.npz")
+    ((begin, length),) = listed.groups[0].gaps
+    assert (begin, length) == (pytest.approx(T[99]), pytest.approx(1.002))
+    assert listed.groups[0].step == pytest.approx(0.002)
+    assert "in uneven steps; 1 gap, the first at 0.698 s of 1.002 s" in listed.as_text()
+    assert listed.as_record()["groups"][0]["gaps"] == [{"from_s": begin, "length_s": length}]
+
+
+def test_channels_of_one_name_and_names_with_an_equals_sign(tmp_path):
+    """Numbered, and told; taken as they are."""
+    (tmp_path / "twice.csv").write_text("time,a,a,b=c\n0,1,2,5\n1,3,4,6\n")
+    written = write_channels(tmp_path / "twice.csv", tmp_path / "x.csv")
+    assert [name for name, _ in written.columns] == ["a (1)", "a (2)", "b=c"]
+    assert [problem.code for problem in written.warnings] == ["names_twice"]
+    written = write_channels(tmp_path / "twice.csv", tmp_path / "y.csv", channels=["b=c"])
+    assert [name for name, _ in written.columns] == ["b=c"]
+    written = write_channels(tmp_path / "twice.csv", tmp_path / "z.csv", channels=["b=c=d", "a=e"])
+    assert [name for name, _ in written.columns] == ["e (1)", "e (2)", "d"]
+
+
+def test_columns_without_numbers_are_told(tmp_path):
+    """Names and dates are no channels."""
+    frame = pd.DataFrame({"time_s": T, "a": VALUES[0], "who": "x"})
+    frame.to_parquet(tmp_path / "run.parquet")
+    listed = list_channels(tmp_path / "run.parquet")
+    assert [problem.code for problem in listed.warnings] == ["no_numbers"]
+    assert "'who'" in listed.as_text()

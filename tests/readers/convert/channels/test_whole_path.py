@@ -57,19 +57,39 @@ def tdms(path):
         )
 
 
+def excel(path):
+    """A sheet with a title, names, and units."""
+    xlsxwriter = pytest.importorskip("xlsxwriter", reason="the package xlsxwriter is not installed")
+    pytest.importorskip("python_calamine", reason="the package python_calamine is not installed")
+    with xlsxwriter.Workbook(path) as book:
+        sheet = book.add_worksheet("run 7")
+        sheet.write(0, 0, "Run 7")
+        for row, cells in enumerate([["time", *NAMES], ["s", *["mm"] * 5], *np.column_stack([T, Q.T]).tolist()], 2):
+            sheet.write_row(row, 0, cells)
+
+
+def simpack(path):
+    """Structures in structures, as SIMPACK exports them."""
+    channels = {name: {"values": q, "unit": "mm"} for name, q in zip(NAMES, Q, strict=True)}
+    scipy.io.savemat(path, {"timeInt": {"time": {"values": T, "unit": "s"}, "flexState": {"car": channels}}})
+
+
 WRITERS = {
-    "a.uff": (universal, 1e-5),
-    "b.uff": (lambda path: universal(path, binary=1), 1e-5),
-    "a.mf4": (mdf, 1e-5),
-    "a.mdf": (lambda path: mdf(path, "3.30"), 1e-5),
-    "a.tdms": (tdms, 1e-5),
-    "real.rsp": (lambda path: write_rpc(path, Q, step=STEP, names=NAMES, kind="f4"), 1e-5),
-    "whole.rsp": (lambda path: write_rpc(path, Q, step=STEP, names=NAMES, kind="i2", order=">"), 1e-2),
-    "a.mat": (lambda path: scipy.io.savemat(path, {"t": T, "q": Q}), 1e-5),
-    "a73.mat": (lambda path: write_matlab_73(path, t=T, q=Q), 1e-5),
-    "a.npz": (lambda path: np.savez(path, time=T, **dict(zip(NAMES, Q, strict=True))), 1e-5),
-    "a.res": (lambda path: write_results(path, T, Q, ("Q1", "Q2", "Q3", "Q4", "Q5")), 1e-4),
-    "a.pch": (lambda path: path.write_text(solution_punch(T, Q, (1, 2, 3, 4, 5))), 1e-3),
+    "a.uff": (universal, 1e-6),
+    "b.uff": (lambda path: universal(path, binary=1), 1e-6),
+    "a.mf4": (mdf, 1e-6),
+    "a.mdf": (lambda path: mdf(path, "3.30"), 1e-6),
+    "a.tdms": (tdms, 1e-6),
+    "real.rsp": (lambda path: write_rpc(path, Q, step=STEP, names=NAMES, kind="f4"), 1e-6),
+    "whole.rsp": (lambda path: write_rpc(path, Q, step=STEP, names=NAMES, kind="i2", order=">"), 1e-3),
+    "a.mat": (lambda path: scipy.io.savemat(path, {"t": T, "q": Q}), 1e-6),
+    "a73.mat": (lambda path: write_matlab_73(path, t=T, q=Q), 1e-6),
+    "simpack.mat": (simpack, 1e-6),
+    "a.xlsx": (excel, 1e-6),
+    "a.npy": (lambda path: np.save(path, np.column_stack([T, Q.T])), 1e-6),
+    "a.npz": (lambda path: np.savez(path, time=T, **dict(zip(NAMES, Q, strict=True))), 1e-6),
+    "a.res": (lambda path: write_results(path, T, Q, ("Q1", "Q2", "Q3", "Q4", "Q5")), 1e-6),
+    "a.pch": (lambda path: path.write_text(solution_punch(T, Q, (1, 2, 3, 4, 5))), 1e-5),
 }
 """Writers, and how far lives may be from those of the text: 16 bits, and the six digits of a punch file, show."""
 

@@ -1,6 +1,7 @@
 """MATLAB files of version 7.3 as MATLAB lays them out: a block of 512 bytes, then HDF5 with its attributes."""
 
 import numpy as np
+import scipy.sparse
 
 CLASSES = {"f8": "double", "f4": "single", "b1": "logical"}
 
@@ -26,15 +27,25 @@ def _put(parent, references, name, value):
     if isinstance(value, dict):
         group = parent.create_group(name)
         group.attrs["MATLAB_class"] = np.bytes_("struct")
+        _put_fields(group, list(value))
         for key, one in value.items():
             _put(group, references, key, one)
+        return
+    if scipy.sparse.issparse(value):
+        group = parent.create_group(name)
+        group.attrs["MATLAB_class"] = np.bytes_("double")
+        group.attrs["MATLAB_sparse"] = np.uint64(value.shape[0])
+        group["data"], group["ir"], group["jc"] = value.data, value.indices.astype("u8"), value.indptr.astype("u8")
         return
     if isinstance(value, str):
         data = np.array([ord(c) for c in value], np.uint16)[:, None]
         kind = "char"
+    elif isinstance(value, np.ndarray) and value.dtype.kind == "U":  # rows of characters
+        data, kind = np.array([[ord(c) for c in row.ljust(value.itemsize // 4)] for row in value], np.uint16).T, "char"
     elif isinstance(value, np.ndarray) and value.dtype == object and all(isinstance(v, dict) for v in value):
         group = parent.create_group(name)
         group.attrs["MATLAB_class"] = np.bytes_("struct")
+        _put_fields(group, list(value[0]))
         for key in value[0]:
             group.create_dataset(key, data=_refer(references, [v[key] for v in value]))
         return
@@ -52,6 +63,15 @@ def _put(parent, references, name, value):
     parent.create_dataset(name, data=data).attrs["MATLAB_class"] = np.bytes_(kind)
 
 
+def _put_fields(group, names):
+    """Names of fields in their order, each an array of characters."""
+    import h5py  # noqa: PLC0415 - an optional package
+
+    letters = np.empty(len(names), object)
+    letters[:] = [np.array(list(name), "S1") for name in names]
+    group.attrs.create("MATLAB_fields", letters, dtype=h5py.vlen_dtype(np.dtype("S1")))
+
+
 def _refer(references, values):
     """References (n, 1) to values that are written beside all others."""
     import h5py  # noqa: PLC0415 - an optional package
@@ -59,6 +79,8 @@ def _refer(references, values):
     made = []
     for value in values:
         name = f"r{len(references)}"
+        while name in references:
+            name += "a"
         _put(references, references, name, value)
         made.append(references[name].ref)
     return np.array(made, h5py.ref_dtype)[:, None]

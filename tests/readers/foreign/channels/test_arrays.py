@@ -57,6 +57,37 @@ def test_pickled_objects_are_never_read(tmp_path):
     assert refused(tmp_path / "run.npy").code == "pickled"
 
 
+def test_objects_in_an_archive_are_told(tmp_path):
+    """They are not read, and what stands beside them is."""
+    np.savez(tmp_path / "run.npz", t=T, q=Q, meta=np.array({"speed": 350}, dtype=object))
+    history = read_coordinates(tmp_path / "run.npz", None, None)
+    assert "meta is a pickled object" in history.warnings[0].what
+    assert "np.savez" in history.warnings[0].remedy
+
+
+def test_a_structured_array_in_an_archive_is_a_group(tmp_path):
+    """Its fields hide no other array of their name."""
+    table = np.zeros(60, [("t", "f8"), ("speed", "f8")])
+    table["t"] = T[::2]
+    np.savez(tmp_path / "run.npz", t=T, q=Q, track=table)
+    groups = {group.name: group for group in read_channels(tmp_path / "run.npz")}
+    np.testing.assert_array_equal(groups["track"].time, T[::2])
+    np.testing.assert_array_equal(groups[""].time, T)
+
+
+def test_other_files_in_an_archive_and_arrays_twice(tmp_path):
+    """A text beside the arrays does no harm; an array twice is refused."""
+    np.savez(tmp_path / "run.npz", t=T, q=Q)
+    with zipfile.ZipFile(tmp_path / "run.npz", "a") as archive:
+        archive.writestr("README.txt", "run 7")
+    assert read_coordinates(tmp_path / "run.npz", None, None).mode.tolist() == [1, 2, 3]
+    data = io.BytesIO()
+    np.save(data, Q)
+    with zipfile.ZipFile(tmp_path / "run.npz", "a") as archive, pytest.warns(UserWarning, match="Duplicate"):
+        archive.writestr("q.npy", data.getvalue())
+    assert refused(tmp_path / "run.npz").what == "two arrays are called 'q'"
+
+
 def test_a_header_cannot_take_all_memory(tmp_path):
     """What it promises is compared with what is there, in an archive as well."""
     data = io.BytesIO()

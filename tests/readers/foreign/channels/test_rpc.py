@@ -145,3 +145,15 @@ def test_channels_without_a_description_are_no_modes(tmp_path):
     history = read_coordinates(path, None, None)
     assert history.mode.tolist() == [0, 0, 0]
     np.testing.assert_array_equal(history.q, read_channels(path)[0].values([0, 1, 2]))
+
+
+def test_a_number_that_is_none_is_refused_by_its_place(tmp_path):
+    """A signalling one, as a flipped bit makes it, without a warning of numpy."""
+    path = tmp_path / "run.rsp"
+    write_rpc(path, VALUES, kind="f4", frame=100, per_group=3)
+    whole = bytearray(path.read_bytes())
+    at = len(whole) - 4 * 300 + 4 * 7  # sample 8 of the third channel
+    whole[at : at + 4] = b"\x01\x00\x80\x7f"
+    path.write_bytes(whole)
+    with pytest.raises(DataError, match=r"sample 8: .* in column 'q_3'"):
+        read_coordinates(path, None, None)

@@ -136,3 +136,10 @@ def test_more_columns_than_letters(read):
     head = "".join(f"{a}: {name}\n" for a, name in zip(letters, names, strict=True))
     rows = "".join("\t".join(str(float(n + k)) for k in range(28)) + "\n" for n in range(3))
     assert read(head + rows).mode.tolist() == list(range(7, 34))
+
+
+@pytest.mark.parametrize("legend", ["A: Time\nB: Q7\n", "1: Time\n2: Q7\n"])
+def test_a_broken_first_row_below_a_legend_is_refused(read, legend):
+    """It is no title: the record would begin later than it did."""
+    with pytest.raises(DataError, match="line 4"):
+        read(legend + "\n0\t12\t3\n1\t4\n2\t5\n3\t6\n")

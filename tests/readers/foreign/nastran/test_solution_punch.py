@@ -71,6 +71,17 @@ def test_subcases_are_groups(tmp_path):
             "mode 2",
         ),
         (by_time() + by_time(), "punch_damaged", "two coordinates"),
+        (
+            by_time().replace("      0.000000E+00       7", "      2.000000E+00       7", 1),
+            "punch_damaged",
+            "beside the",
+        ),
+        (
+            by_time().replace("      0.000000E+00       8", "      2.000000E+00       8", 1),
+            "punch_damaged",
+            "beside the",
+        ),
+        (by_time().replace("$TIME = 5", "$TIMES = 5", 1), "punch_damaged", "a row of a mode or a time"),
         (by_time().replace("E-", "X-", 3), "punch_damaged", "no number"),
         (heading("ACCELERATION", 1) + row(1, "M", 1.0), "no_coordinates", "no displacements of the solution set"),
     ],
@@ -82,3 +93,21 @@ def test_what_cannot_be_read_is_refused(tmp_path, text, code, said):
         read_coordinates(tmp_path / "run.pch", None, None)
     assert caught.value.problems[0].code == code
     assert said in str(caught.value)
+
+
+def test_line_ends_of_windows_and_other_headings(tmp_path):
+    """As copied in another mode, and as the heading stands elsewhere."""
+    text = by_time().replace("DISPLACEMENTS - SOLUTION SET", "DISPLACEMENT (SOLUTION SET)  ").replace("\n", "\r\n")
+    (tmp_path / "run.pch").write_bytes(text.encode())
+    np.testing.assert_allclose(read_coordinates(tmp_path / "run.pch", None, None).q, Q, rtol=1e-6)
+
+
+def test_a_cut_punch_file(tmp_path):
+    """Within a block a mode lacks its last time, which is refused; where a block ends nothing tells it."""
+    text = by_time()
+    end = text.index("$TITLE", len(text) // 2)
+    (tmp_path / "run.pch").write_text(text[: end - 200])
+    with pytest.raises(DataError, match="times"):
+        read_coordinates(tmp_path / "run.pch", None, None)
+    (tmp_path / "run.pch").write_text(text[:end])
+    assert read_coordinates(tmp_path / "run.pch", None, None).time.size < T.size

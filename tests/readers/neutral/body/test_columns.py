@@ -85,7 +85,7 @@ def test_positions_may_stand_in_the_table(tmp_path):
 
 def test_no_positions_at_all(tmp_path):
     """Neither table says where the nodes are."""
-    code, where, what, remedy = problem(tmp_path, table(), nodes=None)
+    code, where, _, remedy = problem(tmp_path, table(), nodes=None)
     assert (code, where) == ("no_positions", "weld_columns.csv")
     assert "[body] nodes" in remedy
 
@@ -147,7 +147,7 @@ def test_the_node_of_the_station_is_another_column_s(tmp_path):
 
 def test_coordinates_of_the_toe_instead_of_the_middle(tmp_path):
     """The moment would be about the surface: refused, with what to do."""
-    at = lines().xyz[:3] + [0, 0, 4.0]
+    at = lines().xyz[:3] + np.array([0, 0, 4.0])
     code, where, what, remedy = problem(tmp_path, table(), of=lines(xyz=at))
     assert (code, where) == ("column_off_middle", "weld_columns.csv: weld solid, order 10")
     assert "are at a surface, 4 mm from the middle" in what
@@ -156,7 +156,7 @@ def test_coordinates_of_the_toe_instead_of_the_middle(tmp_path):
 
 def test_coordinates_a_little_off_the_middle(tmp_path):
     """Rounded coordinates are a doubt, not a mistake."""
-    _, warnings = read(tmp_path, table(), of=lines(xyz=lines().xyz[:3] + [0, 0, 0.3]))
+    _, warnings = read(tmp_path, table(), of=lines(xyz=lines().xyz[:3] + np.array([0, 0, 0.3])))
     assert [warning.code for warning in warnings] == ["column_off_middle"]
 
 

@@ -10,6 +10,7 @@ import pyarrow as pa
 import pyarrow.types as pt
 from numpy.typing import NDArray
 
+from fatigue.errors import Problem
 from fatigue.readers.foreign.channels.group import ChannelGroup, RecordedChannel
 from fatigue.readers.foreign.channels.own_time import with_own_time
 from fatigue.readers.foreign.histories.header import read_header
@@ -58,7 +59,11 @@ def read_parquet_channels(path: Path) -> tuple[ChannelGroup, ...]:
     def values(at: Sequence[int]) -> NDArray[np.floating]:
         return np.stack([_column(opened.read(numbers[k]), opened.kinds[numbers[k]]) for k in at])
 
-    return (with_own_time(ChannelGroup("", named, opened.rows, None, values, _NO_TIME)),)
+    rest = [name for k, name in enumerate(opened.names) if k not in numbers]
+    what = f"columns that hold no numbers are left out: {', '.join(map(repr, rest[:8]))}"
+    remedy = "Write them as numbers if they are wanted, times in seconds"
+    warnings = (Problem("no_numbers", str(path), what, remedy),) if rest else ()
+    return (with_own_time(ChannelGroup("", named, opened.rows, None, values, _NO_TIME, warnings)),)
 
 
 def read_mcf_channels(path: Path) -> tuple[ChannelGroup, ...]:

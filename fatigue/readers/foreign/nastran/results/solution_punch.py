@@ -16,7 +16,7 @@ from fatigue.errors import DataError, Problem
 from fatigue.readers.foreign.channels.group import ChannelGroup, RecordedChannel
 
 REQUEST = "Request SDISPLACEMENT(PUNCH,REAL) = ALL in the modal transient run (SOL 112)"
-_HEADING = re.compile(r"\$DISPLACEMENTS?\s*-\s*SOLUTION SET", re.IGNORECASE)
+_HEADING = re.compile(r"\$DISPLACEMENTS?\b[^A-Z]*SOLUTION SET", re.IGNORECASE)
 _SUBCASE = re.compile(r"\$SUBCASE ID\s*=\s*(\d{1,9})", re.ASCII)
 _TIME = re.compile(r"\$TIME(?: STEP)?\s*=\s*([-+.\dED]+)", re.ASCII)
 _POINT = re.compile(r"\$POINT ID\s*=\s*(\d{1,9})(?:\s+IDENTIFIED BY (\w+))?", re.ASCII)
@@ -55,7 +55,32 @@ def read_solution_punch(path: Path) -> tuple[ChannelGroup, ...]:
 
 def _block(path: Path, lines: list[str], head: int, subcases: dict[int, _Samples], points: dict[str, int]) -> None:
     """Take the rows of one block, which goes on to the next line with a $ behind its rows."""
-    subcase, time, mode, at = 1, None, None, head + 1
+    subcase, time, mode, at = _stated(path, lines, head + 1)
+    samples = subcases.setdefault(subcase, {})
+    while at < len(lines) and not lines[at].startswith("$"):
+        line = lines[at]
+        if line.startswith("-CONT-"):
+            _refuse_more_values(path, at, line[18:72])
+        elif line.strip():
+            words = line[:18].split()
+            if len(words) != 2 or (time is None) == (mode is None):
+                raise _bad(path, at, "a row of a mode or a time, its type and its values was expected")
+            if words[1] != "M":
+                points[words[1]] = points.get(words[1], 0) + 1
+            else:
+                first = _real(path, at, words[0])
+                number, when = (int(first), time or 0.0) if mode is None else (mode, first)
+                of_mode = samples.setdefault(number, {})
+                if when in of_mode:
+                    raise _bad(path, at, f"mode {number} has two coordinates at {when:.9g} s")
+                of_mode[when] = _real(path, at, line[18:36])
+                _refuse_more_values(path, at, line[36:72])
+        at += 1
+
+
+def _stated(path: Path, lines: list[str], at: int) -> tuple[int, float | None, int | None, int]:
+    """Subcase, time or mode that the lines below a heading state, and where the rows begin."""
+    subcase, time, mode = 1, None, None
     while at < len(lines) and lines[at].startswith("$"):
         line = lines[at][:72]
         if found := _SUBCASE.match(line):
@@ -70,23 +95,16 @@ def _block(path: Path, lines: list[str], head: int, subcases: dict[int, _Samples
         elif line.startswith(_COMPLEX) or line.startswith("$FREQUENCY"):
             raise DataError(Problem("harmonic", f"{path}, line {at + 1}", "the coordinates are complex", REQUEST))
         at += 1
-    samples = subcases.setdefault(subcase, {})
-    while at < len(lines) and not lines[at].startswith("$"):
-        line = lines[at]
-        if line.strip() and not line.startswith("-CONT-"):
-            words = line[:18].split()
-            if len(words) != 2 or (time is None) == (mode is None):
-                raise _bad(path, at, "a row of a mode or a time, its type and its values was expected")
-            if words[1] != "M":
-                points[words[1]] = points.get(words[1], 0) + 1
-            else:
-                first = _real(path, at, words[0])
-                number, when = (int(first), time or 0.0) if mode is None else (mode, first)
-                of_mode = samples.setdefault(number, {})
-                if when in of_mode:
-                    raise _bad(path, at, f"mode {number} has two coordinates at {when:.9g} s")
-                of_mode[when] = _real(path, at, line[18:36])
-        at += 1
+    return subcase, time, mode, at
+
+
+def _refuse_more_values(path: Path, at: int, fields: str) -> None:
+    """Refuse values beside the first of a row: a mode has one coordinate, the other fields hold zeros."""
+    for k in range(0, len(fields.rstrip()), 18):
+        if fields[k : k + 18].strip() and _real(path, at, fields[k : k + 18]) != 0.0:
+            raise _bad(
+                path, at, f"{fields[k : k + 18].strip()} stands beside the coordinate of a mode, where zeros belong"
+            )
 
 
 def _group(path: Path, subcase: int, samples: _Samples, subcases: int, warnings: tuple[Problem, ...]) -> ChannelGroup:
