@@ -21,7 +21,6 @@ from fatigue.pipeline.solve.rated_curves import (
     curves_of_case,
     rated_curves,
 )
-from fatigue.pipeline.solve.solids import NO_SOLIDS, Solids, registered_solids
 from fatigue.readers.convert.folder import RECORD, read_record
 from fatigue.readers.neutral.against_mesh import TableNames, mesh_warnings
 from fatigue.readers.neutral.body.classes import class_warnings
@@ -40,6 +39,7 @@ from fatigue.readers.neutral.register.conversion import convert_record
 from fatigue.readers.neutral.register.register_file import open_register
 from fatigue.readers.neutral.register.registered import Registered, registered, unregistered
 from fatigue.readers.neutral.register.registered_lines import Joints, registered_lines, unconfirmed_thickness
+from fatigue.readers.neutral.register.registered_solids import NO_SOLIDS, Solids, registered_solids
 from fatigue.readers.neutral.register.weld_register import REGISTER, RegisterRow
 from fatigue.readers.neutral.spare_memory import give_back
 from fatigue.weld.line_units import unit_problems, unit_warnings

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from fatigue.verify.recount.anew.joined import put_together, side_of, with_thickness
 from fatigue.verify.recount.anew.line import CORNER_DEG, Line, RecountLineStress, edges, kinks, line_stress
-from fatigue.verify.recount.anew.solid import Column, about, at_stations, solid_columns
 from fatigue.verify.recount.inputs.case import RecountInputs, column, flags
+from fatigue.verify.recount.inputs.columns import Column, about, at_stations, solid_columns
 from fatigue.verify.recount.inputs.coordinates import RecountCoordinates, forces_where
 from fatigue.verify.recount.inputs.register import WeldEntry
 from fatigue.verify.recount.inputs.tables import FORCE_COLUMNS, read_pieces, read_rows_where
