@@ -188,12 +188,18 @@ def _written_lines(
     if not kept:
         raise DataError(Problem("no_welds", str(lines), "there are no lines but candidates", "Use --candidates"))
     with replacing(lines) as unfinished:
-        unfinished.write_text(lines_text(found.cuts[row.line] for row in kept), "utf-8")
+        unfinished.write_text(lines_text(_at_nodes(model, found.cuts[row.line]) for row in kept), "utf-8")
     try:
         again = find_welds(model, WeldSources(lines=lines))
     except DataError as error:  # as of plates that lie on one another: told, with the lines to correct
         return list(found.rows), list(error.problems)
     return moved(kept, found.cuts, {row.line: row for row in again.rows}, again.cuts, lines)
+
+
+def _at_nodes(model: FeModel, cut: WeldCut) -> WeldCut:
+    """Cut whose line is where its nodes are: of solids on the surface, not at mid-thickness."""
+    xyz = model.mesh.xyz[np.searchsorted(model.mesh.node, cut.line.node)]
+    return replace(cut, line=replace(cut.line, xyz=xyz))
 
 
 def no_welds(mesh: Path) -> Problem:

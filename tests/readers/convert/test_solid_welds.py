@@ -19,6 +19,7 @@ from tests.readers.op2_writer import modal_op2
 from tests.readers.solid_tee import solid_bulk, solid_tee
 from tests.solid_meshes import Solids, deck, tee
 
+PLATES = [(200, 0, 0), (210, 0, 0), (210, 10, 0), (200, 10, 0), (210, 20, 0), (200, 20, 0), (210, 10, 9), (200, 10, 9)]
 NAMES = ("solid_toe_24_93_p1a", "solid_toe_36_99_p1a", "solid_toe_24_93_p2a", "solid_toe_36_99_p2a")
 
 
@@ -263,3 +264,33 @@ def test_lives_are_those_of_a_case_made_by_hand(files, converted, tmp_path):
     lives = [np.array(table["life_km"].to_pylist(), float) for table in tables]
     assert np.isfinite(lives[0]).sum() > 10
     assert lives[0] == pytest.approx(lives[1], rel=1e-5, nan_ok=True)  # forces of the file are in single precision
+
+
+def test_written_lines_find_the_same_cuts(tmp_path):
+    """Lines are written where the toes are, on the surface, and give the same columns and solids."""
+    (tmp_path / "m.bdf").write_text(deck(tee(wedge=4.0)))
+    lines = tmp_path / "lines.csv"
+    found = list_welds(tmp_path / "m.bdf", WeldSources(), "mm-t-s", None, False, lines)
+    again = find_welds(read_model(tmp_path / "m.bdf"), WeldSources(lines=lines))
+
+    def key(cuts):
+        return sorted((sorted(cut.columns), cut.elements.tolist()) for cut in cuts.values())
+
+    assert key(again.cuts) == key(found.cuts)
+
+
+def test_one_name_for_lines_of_shells_and_solids(tmp_path):
+    """They do not join."""
+    grids = "".join(f"GRID,{900 + k},,{x}.,{y}.,{z}.\n" for k, (x, y, z) in enumerate(PLATES))
+    shells = "CQUAD4,801,7,900,901,902,903\nCQUAD4,802,7,903,902,904,905\nCQUAD4,803,7,903,902,906,907\n"
+    model = model_of(tmp_path, deck(tee(), extra=grids + shells + "PSHELL,7,1,5.,1,,1"))
+    found = find_welds(model, WeldSources())
+    assert {row.kind for row in found.rows} == {"tee", "solid_toe"}
+    register = tmp_path / "register.csv"
+    shell = next(row for row in found.rows if row.kind == "tee")
+    solid = next(row for row in found.rows if row.kind == "solid_toe")
+    text = ["weld,line,status"] + [f"both,{row.line},assess" for row in (shell, solid)]
+    register.write_text("\n".join(text) + "\n")
+    with pytest.raises(DataError) as refused:
+        find_welds(model, WeldSources(register=register))
+    assert "lines of shells and of solids" in str(refused.value)

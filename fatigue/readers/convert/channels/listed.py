@@ -87,7 +87,9 @@ class Recording:
                     f"; {len(one.gaps)} gap{'s' * (len(one.gaps) != 1)}, the first at {begin:.9g} s of {length:.6g} s"
                 )
             lines.append(f"{name}{count}, {time}")
-            lines += [f"  {_with_unit(channel, unit)}" for channel, unit in one.channels]
+            lines += [
+                f"  {name}" + (f" [{unit}]" if unit and not channel(name).unit else "") for name, unit in one.channels
+            ]
         return "\n".join([*lines, *(f"note   {warning}" for warning in self.warnings)])
 
 

@@ -64,11 +64,12 @@ def _welded(topo: Topology, model: FeModel) -> dict[int, Key]:
 def lines_of(surfaces: Sequence[Surface], given: Sequence[GivenLine]) -> list[list[GivenLine]]:
     """Given lines of each surface: of a line that several could have, the first that it lies on, else the last."""
     left = list(given)
+    if not given:
+        return [[] for _ in surfaces]
     found: list[list[GivenLine]] = []
     for surface in surfaces[:-1]:
-        local = local_edges(surface.topo)
-        near = [edges_along(surface.topo, local, line.polyline, line.tolerance) for line in left]
-        own = [line for line, found_there in zip(left, near, strict=True) if not isinstance(found_there, Gap)]
+        topo, local = surface.topo, local_edges(surface.topo)
+        own = [line for line in left if not isinstance(edges_along(topo, local, line.polyline, line.tolerance), Gap)]
         left = [line for line in left if line not in own]
         found.append(own)
     return [*found, left]

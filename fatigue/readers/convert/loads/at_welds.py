@@ -3,8 +3,8 @@
 A grid point force balance states applied loads by grid (APP-LOAD), summed over the elements there, and the forces of
 elements as K_e u_e. The cut beside a weld needs K_e u_e - f_e, with f_e the element's share of the load at its grids:
 without it the line force of a plate under pressure is off by l / 2L, for elements of length l beside a field of length
-L. The share is estimated here by area, among the elements that are loaded at all their grids; it is not subtracted. Cuts
-of solids are not looked at.
+L. The share is estimated here by area, among the elements that are loaded at all their grids; it is not subtracted.
+Cuts of solids are not looked at.
 """
 
 from collections.abc import Sequence
