@@ -136,7 +136,7 @@ def _values(path: Path, number: int, wanted: Sequence[int], at: Sequence[int]) -
             row = np.asarray(signal.samples).astype(np.float64)
             if row.ndim != 1:
                 what = f"channel {signal.name!r} has arrays of {row.shape[1:]} values, no single ones"
-                raise DataError(Problem("columns_left_out", str(path), what, "Export its elements as channels"))
+                raise DataError(Problem("no_numbers", str(path), what, "Export its elements as channels"))
             invalid = signal.invalidation_bits
             if invalid is not None:
                 row[np.asarray(invalid, np.bool_)] = np.nan
