@@ -10,6 +10,7 @@ import numpy as np
 from fatigue.errors import Problem, given_path
 from fatigue.readers.foreign.channels.group import ChannelGroup
 from fatigue.readers.foreign.read import read_channels, recognise
+from fatigue.readers.units.channel_names import channel
 
 STEP_TOLERANCE = 1e-3  # of a step, as for histories
 
