@@ -36,6 +36,7 @@ from tests.fuzz.recordings import recordings
 from tests.readers import neutral_tables as neutral
 from tests.readers.foreign.histories.test_mcf import MCF
 from tests.readers.op2_writer import modal_op2
+from tests.solid_meshes import deck, tee
 
 Columns = dict[str, Any]
 Reader = Callable[[Path], tuple[Columns, tuple[Problem, ...]]]
@@ -369,6 +370,7 @@ def sources(folder: Path) -> list[Source]:
     add("punch", "run.pch", punch(small_run()), _results)
     add("deck", "deck.bdf", _DECK.encode(), _model, beside={"grids.inc": _GRIDS.encode()})
     include = {name: (NASTRAN / name).read_bytes() for name in ("geom.inc",)}
+    add("deck of solids", "solids.bdf", deck(tee(wedge=4.0), parabolic=True).encode(), _model)
     add("modes_elements.bdf", "m.bdf", (NASTRAN / "modes_elements.bdf").read_bytes(), _model, beside=include)
     add("geom.inc", "geom.inc", include["geom.inc"], _model)
     add("mcf", "q.mcf", MCF.replace("2              7", "2              3").encode(), _coordinates)
