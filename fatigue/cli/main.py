@@ -22,7 +22,7 @@ Exit codes: 0 done; 1 done, but a target is missed; 2 wrong usage;
 3 bad case or data; 4 numerical failure or no memory; 130 interrupted.
 """
 SECTIONS = {
-    "Begin": ("example", "schema", "convert", "welds", "tension-patch", "reduce", "synth"),
+    "Begin": ("example", "schema", "request", "convert", "welds", "tension-patch", "reduce", "synth"),
     "Assess": ("check", "assess", "show", "report", "verify"),
     "Understand": ("diagnose", "point", "history", "spectra", "ride", "basis", "shift"),
     "Decide": ("compare", "whatif", "backsolve", "fleet", "bench"),

@@ -32,6 +32,7 @@ from fatigue.results import read_provenance, read_table
 from fatigue.results.json_records import write_json
 from fatigue.results.tables import schema
 from tests.fuzz import damage
+from tests.fuzz.exported import ABAQUS_DECK, ANSYS_ARCHIVE, abaqus_text, ansys_text
 from tests.fuzz.recordings import recordings
 from tests.readers import neutral_tables as neutral
 from tests.readers.foreign.histories.test_mcf import MCF
@@ -302,45 +303,6 @@ def punch(run: FeResults) -> bytes:
     return ("\n".join(line.ljust(72) for line in lines) + "\n").encode()
 
 
-_ABAQUS_DECK = """*Heading
-*Node
-1, 0., 0., 0.
-2, 10., 0., 0.
-3, 10., 10., 0.
-4, 0., 10., 0.
-5, 20., 5., 2.
-*Element, type=S4R, elset=plate
-7, 1, 2, 3, 4
-*Element, type=S3, elset=wall
-8, 2, 5, 3
-*Shell Section, elset=plate, material=steel, offset=SPOS
-8., 5
-*Shell Section, elset=wall, material=steel
-6., 5
-"""
-
-
-def exported(run: FeResults) -> bytes:
-    """Text of the export script, of the shells of a run."""
-    rows = np.flatnonzero(run.of_element)
-    nodes = np.unique(run.node[rows])
-    lines = ["fatigue export 1 Abaqus 2023", f"*nodes 4 {nodes.size}"]
-    lines += [f"{n} {n}.0 {n * n}.0 0.0" for n in nodes.tolist()]
-    lines += ["*sections 3 1", "1 8.000000000e+00 0.000000000e+00"]
-    for element in np.unique(run.element[rows]).tolist():
-        own = run.node[rows][run.element[rows] == element].tolist()
-        kind = {3: "S3", 4: "S4R"}[len(own)]
-        lines += [f"*elements {2 + len(own)} 1 {kind}", " ".join(map(str, (element, 1, *own)))]
-    for k, mode in enumerate(run.mode.tolist()):
-        lines += ["*mode 3 1", f"{mode} {run.frequency[k]:.9e} {1.0:.9e}", f"*shape 7 {run.shape_node.size}"]
-        lines += [f"{n} " + " ".join(f"{x:.9e}" for x in u) for n, u in zip(run.shape_node, run.shape[k], strict=True)]
-        lines.append(f"*forces 8 {rows.size}")
-        lines += [
-            f"{run.element[r]} {run.node[r]} " + " ".join(f"{x:.9e}" for x in run.force[k, r]) for r in rows.tolist()
-        ]
-    return ("\n".join([*lines, "*end"]) + "\n").encode()
-
-
 def _text(columns: Mapping[str, list[Any]], separator: str = ",", decimal: str = ".", head: str = "") -> bytes:
     rows = [separator.join(columns)]
     rows += [separator.join(str(v).replace(".", decimal) for v in row) for row in zip(*columns.values(), strict=True)]
@@ -420,9 +382,11 @@ def sources(folder: Path) -> list[Source]:
     pq.write_table(pa.table(filled, schema=plain), folder / "sound_nodes.parquet")
     nodes = (folder / "sound_nodes.parquet").read_bytes()
     add("result table", "nodes.parquet", nodes, _result_table, binary=True, structure=True)
-    add("Abaqus deck", "plate.inp", _ABAQUS_DECK.encode(), _model)
-    add("exported text", "run.txt", exported(small_run()), _results, structure=True)
-    add("mesh of exported text", "mesh.txt", exported(small_run()), _model, structure=True)
+    add("Abaqus deck", "plate.inp", ABAQUS_DECK.encode(), _model)
+    add("Abaqus text", "run.txt", abaqus_text(small_run()), _results, structure=True)
+    add("mesh of Abaqus text", "mesh.txt", abaqus_text(small_run()), _model, structure=True)
+    add("ANSYS text", "macro.txt", ansys_text(small_run()), _results, structure=True)
+    add("ANSYS archive", "plate.cdb", ANSYS_ARCHIVE.encode(), _model)
     for name, path, is_text in recordings(folder):
         add(name, path.name, path.read_bytes(), _coordinates, binary=not is_text)
     return found

@@ -166,4 +166,4 @@ def test_linear_and_backwards(mode, seed):
     a, b, both = (quasi_static(q, STEP, hz, zeta)[:, inside] for q in (x, y, x + y))
     assert both == pytest.approx(a + b, abs=0.01 * np.abs(both).max())
     there, back = (quasi_static(q, STEP, hz, np.zeros(1)) for q in (x, x[:, ::-1]))
-    assert back[:, ::-1] == pytest.approx(there, abs=1e-9 * np.abs(there).max())
+    assert back[:, ::-1] == pytest.approx(there, abs=1e-8 * np.abs(there).max())  # rounding at the ends

@@ -41,6 +41,7 @@ def read_inp(path: Path) -> FeModel:
     """
     words, included = keywords(path)
     problems: list[Problem] = []
+    doubts: list[Problem] = []
     if generated := [word for word in words if word.name in _GENERATED]:
         what = f"{len(generated)} keywords generate nodes or elements, *{generated[0].name} the first"
         raise DataError(Problem("generated", generated[0].where, what, "Write the deck with all nodes and elements"))
@@ -56,14 +57,14 @@ def read_inp(path: Path) -> FeModel:
         _refuse_twice(path, part, grids.keys(), [*shells, *solids])
         grids |= {number: place.of(xyz) for number, xyz in part.nodes.items()}
         of_element = _sections_of(part, sections, unconfirmed)
+        doubts += _undefined_sets(part)
         for number, (kind, nodes, where) in part.elements.items():
             form = abaqus_form(kind)
             if form is None:
                 others[kind.upper()] = others.get(kind.upper(), 0) + 1
             elif len(nodes) != form.corners + len(form.mids):
-                what = (
-                    f"element {number} of type {kind} has {len(nodes)} nodes, {form.corners + len(form.mids)} are due"
-                )
+                due = form.corners + len(form.mids)
+                what = f"element {number} of type {kind} has {len(nodes)} nodes, {due} are due"
                 problems.append(Problem("inp_damaged", where, what, "Write the deck again"))
             else:
                 made = element_of(form, number, of_element.get(number, 0), nodes)
@@ -78,7 +79,7 @@ def read_inp(path: Path) -> FeModel:
         frame=np.zeros((0, 3, 3)),
         unconfirmed_sections=unconfirmed,
         other_cards=others,
-        warnings=others_left_out(str(path), others),
+        warnings=(*others_left_out(str(path), others), *doubts),
         included=included,
         solids=solid_mesh(str(path), grids, solids, shells),
     )
@@ -223,6 +224,16 @@ def _sections_of(part: _Part, sections: dict[int, Section], unconfirmed: dict[in
             if (first := of_element.setdefault(element, number)) != number:
                 unconfirmed[first] = f"section {first} shares elements with section {number}"
     return of_element
+
+
+def _undefined_sets(part: _Part) -> list[Problem]:
+    """Sections of sets that the deck does not define: elements of theirs may be missing."""
+    unknown = [word for word in part.sections if word.get("ELSET").upper() not in part.sets]
+    remedy = "Give the whole deck, with every *ELEMENT and *ELSET of it"
+    return [
+        Problem("no_elset", word.where, f"a section is of the set {word.get('ELSET')!r}, which is not defined", remedy)
+        for word in unknown
+    ]
 
 
 def _placed_parts(

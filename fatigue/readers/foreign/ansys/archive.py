@@ -90,7 +90,10 @@ def _nblock(archive: Archive, lines: Lines, words: list[str]) -> None:
         if line.strip() == "-1" or line.lstrip().upper().startswith("N,"):
             _check_count(lines, words, len(archive.nodes) - before)
             return
-        node = whole_numbers(lines, line[: fields[first - 1].end], fields[:first])[0]
+        head = whole_numbers(lines, line[: fields[first - 1].end], fields[:first])
+        if len(head) < first:
+            raise lines.damaged(f"a node of {first} whole numbers and its place was expected")
+        node = head[0]
         values = numbers(lines, line, fields)[first:] + [0.0] * 6
         if node < 1 or node in archive.nodes:
             raise lines.damaged(f"{node} is no id of a node" if node < 1 else f"node {node} is given twice")

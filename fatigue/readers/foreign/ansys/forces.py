@@ -58,6 +58,8 @@ def read_ansys_forces(
             current = (_MODAL, number) if block.name == "mode" else (number, 0)
             if block.name == "mode":
                 frequency, mass = (float(value) for value in block.values[0, 1:])
+                if mass < 0.0:
+                    raise _damaged(path, block.line + 1, f"{mass:g} is no modal mass")
                 mass = mass if mass > 0.0 else np.nan  # the macro was told that shapes are not normalised to mass
                 summary.append(Eigenvalue(_MODAL, number, frequency, mass, (2.0 * np.pi * frequency) ** 2))
             else:

@@ -4,6 +4,7 @@
 ``*end`` is the last line. A row that lacks a number, a block that lacks a row, or a text without its end is refused.
 """
 
+import math
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -43,7 +44,7 @@ def blocks(path: Path, wanted: frozenset[str] | None = None) -> Iterator[Block]:
 
     Raises
     ------
-    DataError : another version, a text that is cut, a row that is not of so many numbers
+    DataError : another version, a text that is cut, a row that is not of so many finite numbers
     """
     try:
         with path.open(encoding="ascii", errors="replace") as file:
@@ -66,7 +67,8 @@ def blocks(path: Path, wanted: frozenset[str] | None = None) -> Iterator[Block]:
                 if name not in _NAMES:
                     raise _damaged(path, number, f"*{name} is no block of the layout ({', '.join(sorted(_NAMES))})")
                 if wanted is None or name in wanted:
-                    yield Block(name, (found[4] or "").strip(), number, _numbers(path, file, number, columns, rows))
+                    values = _numbers(path, file, number, columns, rows, name == "mode")
+                    yield Block(name, (found[4] or "").strip(), number, values)
                 elif sum(1 for _ in islice(file, rows)) != rows:
                     raise _damaged(path, number, f"the block *{name} is to have {rows} rows, and the text ends before")
                 number += rows
@@ -92,8 +94,8 @@ def _head(path: Path, file: TextIO) -> int:
     return 1
 
 
-def _numbers(path: Path, file: TextIO, head: int, columns: int, rows: int) -> NDArray[np.float64]:
-    """Rows of a block."""
+def _numbers(path: Path, file: TextIO, head: int, columns: int, rows: int, lacking: bool) -> NDArray[np.float64]:
+    """Rows of a block; ``lacking`` allows nan, which stands for the mass of a mode that is not known."""
     pieces: list[NDArray[np.float64]] = []
     done = 0
     while done < rows:
@@ -105,7 +107,7 @@ def _numbers(path: Path, file: TextIO, head: int, columns: int, rows: int) -> ND
             values = np.array(words, np.float64)
         except ValueError:
             values = np.empty(0)
-        if values.size != columns * len(lines):
+        if values.size != columns * len(lines) or not (lacking or np.isfinite(values).all()):
             raise _row_problem(path, lines, head + done + 1, columns)
         pieces.append(values.reshape(len(lines), columns))
         done += len(lines)
@@ -116,8 +118,8 @@ def _row_problem(path: Path, lines: list[str], first: int, columns: int) -> Data
     """The first row that is not of so many numbers."""
     for number, line in enumerate(lines, first):
         words = line.split()
-        if any(not _is_number(word) for word in words):
-            bad = next(word for word in words if not _is_number(word))
+        bad = next((word for word in words if not _is_number(word)), None)
+        if bad is not None:
             return _damaged(path, number, f"{bad[:30]!r} is no number")
         if len(words) != columns:
             return _damaged(path, number, f"{len(words)} numbers stand in a row of {columns}")
@@ -126,10 +128,9 @@ def _row_problem(path: Path, lines: list[str], first: int, columns: int) -> Data
 
 def _is_number(word: str) -> bool:
     try:
-        float(word.replace("D", "E"))
+        return math.isfinite(float(word.replace("D", "E")))
     except ValueError:
         return False
-    return True
 
 
 def _damaged(path: Path, line: int, what: str) -> DataError:

@@ -129,6 +129,14 @@ def test_includes_are_followed(tmp_path):
         read_model(deck(tmp_path, head + "*INCLUDE, INPUT=other.inc\n"))
 
 
+def test_a_section_of_a_set_that_is_not_defined_is_told(tmp_path):
+    """Elements whose head is lost are missing without a word else."""
+    text = PLATE.replace('elset="the plate"', "elset=lost", 1)
+    warned = read_model(deck(tmp_path, text)).warnings
+    assert any(problem.code == "no_elset" and "line" in problem.where for problem in warned)
+    assert not any(problem.code == "no_elset" for problem in read_model(deck(tmp_path, PLATE)).warnings)
+
+
 @pytest.mark.parametrize(
     ("text", "said"),
     [

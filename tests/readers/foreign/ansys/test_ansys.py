@@ -142,6 +142,7 @@ def test_offsets_layers_and_real_constants(tmp_path):
         (lambda t: t.replace("(19i10)", "(0i10)"), "archive_damaged", "is not read"),
         (lambda t: t.replace("ET,        1,181", "ET,        2,181"), "no_type", "element type 1 is not defined"),
         (lambda t: t.replace("1.2000000000000E+002", "********************", 1), "archive_damaged", "did not fit"),
+        (lambda t: t.replace("N,R5.3", "\nN,R5.3"), "archive_damaged", "a node of 3 whole numbers"),
         (lambda t: t[: t.index("EBLOCK")], "no_mesh", "no elements"),
         (lambda t: t.replace("EBLOCK", "EN,1,1,2,3,4\nEBLOCK"), "unblocked", "EN stands outside"),
     ],
@@ -163,6 +164,8 @@ def test_a_damaged_archive_is_refused(files, tmp_path, change, code, said):
         (lambda t: t.replace("    181.", "    abc.", 1), "export_damaged", "no element routine"),
         (lambda t: t.replace("*mode 3 1", "*mode 3 2", 1), "export_damaged", "no number"),
         (lambda t: t.replace("E-00", "*****", 1), "export_damaged", "no number"),
+        (lambda t: re.sub(r"(shape.*\n.*)\S{20}\n", r"\1NaN\n", t, count=1), "export_damaged", "'NaN' is no number"),
+        (lambda t: t.replace("0.1000000000000E+001", "-1.", 1), "export_damaged", "-1 is no modal mass"),
     ],
 )
 def test_a_damaged_text_is_refused(files, tmp_path, change, code, said):
