@@ -21,6 +21,7 @@ VERSION = 1
 HEAD = re.compile(r"\Afatigue export (\d+) (\S+) ?([^\r\n]*)\r?\n")
 _BLOCK = re.compile(r"\*(\w+) +(\d{1,3}) +(\d{1,12})\.?(?: +(.*))?\Z")
 _NAMES = frozenset({"nodes", "elements", "sections", "layered", "mode", "static", "shape", "forces"})
+_ANEW = "Write it again with the script (fatigue request), or copy it whole"
 _AT_ONCE = 20_000  # rows turned into numbers together
 
 
@@ -54,7 +55,7 @@ def blocks(path: Path, wanted: frozenset[str] | None = None) -> Iterator[Block]:
                 number += 1
                 if not line:
                     what = "the text ends without *end: its end is missing"
-                    raise DataError(Problem("cut", f"{path}, line {number}", what, "Write it again, or copy it whole"))
+                    raise DataError(Problem("cut", f"{path}, line {number}", what, _ANEW))
                 text = line.strip()
                 if text == "*end":
                     return
@@ -62,15 +63,15 @@ def blocks(path: Path, wanted: frozenset[str] | None = None) -> Iterator[Block]:
                     continue
                 found = _BLOCK.match(text)
                 if found is None:
-                    raise _damaged(path, number, f"the head of a block was expected, and {text[:40]!r} stands there")
+                    raise damaged(path, number, f"the head of a block was expected, and {text[:40]!r} stands there")
                 name, columns, rows = found[1], int(found[2]), int(found[3])
                 if name not in _NAMES:
-                    raise _damaged(path, number, f"*{name} is no block of the layout ({', '.join(sorted(_NAMES))})")
+                    raise damaged(path, number, f"*{name} is no block of the layout ({', '.join(sorted(_NAMES))})")
                 if wanted is None or name in wanted:
                     values = _numbers(path, file, number, columns, rows, name == "mode")
                     yield Block(name, (found[4] or "").strip(), number, values)
                 elif sum(1 for _ in islice(file, rows)) != rows:
-                    raise _damaged(path, number, f"the block *{name} is to have {rows} rows, and the text ends before")
+                    raise damaged(path, number, f"the block *{name} is to have {rows} rows, and the text ends before")
                 number += rows
     except OSError as error:
         raise DataError(Problem("unreadable", str(path), f"it cannot be read ({error})", "Check the path")) from error
@@ -86,7 +87,7 @@ def solver_of(path: Path) -> str:
 def _head(path: Path, file: TextIO) -> int:
     found = HEAD.match(file.readline())
     if found is None:
-        raise _damaged(path, 1, "it does not begin with 'fatigue export'")
+        raise damaged(path, 1, "it does not begin with 'fatigue export'")
     if int(found[1]) != VERSION:
         what = f"the layout has version {found[1]}, and {VERSION} is read"
         remedy = "Write the script anew with `fatigue request`, and export again"
@@ -101,7 +102,7 @@ def _numbers(path: Path, file: TextIO, head: int, columns: int, rows: int, lacki
     while done < rows:
         lines = list(islice(file, min(_AT_ONCE, rows - done)))
         if not lines:
-            raise _damaged(path, head + done + 1, f"a block of {rows} rows ends behind {done}")
+            raise damaged(path, head + done + 1, f"a block of {rows} rows ends behind {done}")
         words = "".join(lines).replace("D", "E").split()
         try:
             values = np.array(words, np.float64)
@@ -120,10 +121,10 @@ def _row_problem(path: Path, lines: list[str], first: int, columns: int) -> Data
         words = line.split()
         bad = next((word for word in words if not _is_number(word)), None)
         if bad is not None:
-            return _damaged(path, number, f"{bad[:30]!r} is no number")
+            return damaged(path, number, f"{bad[:30]!r} is no number")
         if len(words) != columns:
-            return _damaged(path, number, f"{len(words)} numbers stand in a row of {columns}")
-    return _damaged(path, first, f"rows of {columns} numbers were expected")
+            return damaged(path, number, f"{len(words)} numbers stand in a row of {columns}")
+    return damaged(path, first, f"rows of {columns} numbers were expected")
 
 
 def _is_number(word: str) -> bool:
@@ -133,5 +134,6 @@ def _is_number(word: str) -> bool:
         return False
 
 
-def _damaged(path: Path, line: int, what: str) -> DataError:
-    return DataError(Problem("export_damaged", f"{path}, line {line}", what, "Write it again, or copy it whole"))
+def damaged(path: Path, line: int, what: str) -> DataError:
+    """Refusal of a text at a line, from 1."""
+    return DataError(Problem("export_damaged", f"{path}, line {line}", what, _ANEW))
