@@ -11,6 +11,7 @@ from fatigue.errors import DataError, Problem
 from fatigue.readers.foreign.fe.assembly import FileBlocks, assemble
 from fatigue.readers.foreign.fe.results import REQUEST, FeResults, ForceBlock
 from fatigue.readers.foreign.fe.static_case import Heading, heading
+from fatigue.readers.foreign.nastran.results.punch_fields import damaged, real
 from fatigue.readers.neutral.body.modes import LOWEST_HZ
 
 _HEADING = "$GRID POINT FORCE BALANCE"
@@ -51,7 +52,7 @@ def read_punch(
     if not heads:
         raise DataError(Problem("no_forces", str(path), f"no block begins with {_HEADING}", REQUEST))
     if (stray := _stray_row(lines)) is not None:
-        raise _bad(path, stray, f"a row of forces stands in a block that does not begin with {_HEADING}")
+        raise damaged(path, stray, f"a row of forces stands in a block that does not begin with {_HEADING}")
     stated: dict[tuple[int, int], list[float]] = {}
     blocks = [_block(path, lines, head, stated) for head in heads]
     headings = {block.subcase: _heading(lines, head) for block, head in zip(blocks, heads, strict=True)}
@@ -81,9 +82,9 @@ def _block(path: Path, lines: list[str], head: int, stated: dict[tuple[int, int]
         if found := _SUBCASE.match(line):
             number = int(found[1])
         if found := _EIGENVALUE.match(line):
-            mode, eigenvalue = int(found[2]), _real(path, at, found[1])
+            mode, eigenvalue = int(found[2]), real(path, at, found[1])
         elif line.startswith("$EIGENVALUE"):
-            raise _bad(path, at, f"in {line.strip()!r} the eigenvalue or the mode is no number")
+            raise damaged(path, at, f"in {line.strip()!r} the eigenvalue or the mode is no number")
         if line.startswith(("$REAL-IMAGINARY", "$MAGNITUDE-PHASE")):
             raise DataError(
                 Problem("complex_forces", where, "the forces are complex", "Request REAL output of SOL 103")
@@ -107,11 +108,11 @@ def _block(path: Path, lines: list[str], head: int, stated: dict[tuple[int, int]
         first = lines[at]
         following = [lines[k] if k < len(lines) else "" for k in (at + 1, at + 2)]
         if first.startswith("-CONT-") or not all(line.startswith("-CONT-") for line in following):
-            raise _bad(path, at, "a row of one line and two -CONT- lines was expected")
+            raise damaged(path, at, "a row of one line and two -CONT- lines was expected")
         node.append(_id(path, at, first[:18]))
         element.append(_id(path, at, first[18:36] or "0"))
         kind.append(first[36:54].strip())
-        force.append([_real(path, at, line[k : k + 18]) for line in following for k in (18, 36, 54)])
+        force.append([real(path, at, line[k : k + 18]) for line in following for k in (18, 36, 54)])
         at += 3
     return ForceBlock(
         f"{where}, subcase {number} mode {mode}",
@@ -149,18 +150,5 @@ def _stray_row(lines: list[str]) -> int | None:
 def _id(path: Path, at: int, text: str) -> int:
     digits = text.strip() or "0"
     if not (digits.isascii() and digits.isdigit() and len(digits) < 12):
-        raise _bad(path, at, f"{digits!r} is no id")
+        raise damaged(path, at, f"{digits!r} is no id")
     return int(digits)
-
-
-def _real(path: Path, at: int, text: str) -> float:
-    try:
-        return float(text.strip().upper().replace("D", "E").replace("_", "?"))
-    except ValueError:
-        raise _bad(path, at, f"{text.strip()!r} is no number") from None
-
-
-def _bad(path: Path, at: int, found: str) -> DataError:
-    return DataError(
-        Problem("punch_damaged", f"{path}, line {at + 1}", found, "Copy the punch file again in text mode")
-    )

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem
 from fatigue.readers.foreign.channels.group import ChannelGroup, RecordedChannel
+from fatigue.readers.foreign.nastran.results.punch_fields import damaged, real
 
 REQUEST = "Request SDISPLACEMENT(PUNCH,REAL) = ALL in the modal transient run (SOL 112)"
 _HEADING = re.compile(r"\$DISPLACEMENTS?\b[^A-Z]*SOLUTION SET", re.IGNORECASE)
@@ -64,16 +65,16 @@ def _block(path: Path, lines: list[str], head: int, subcases: dict[int, _Samples
         elif line.strip():
             words = line[:18].split()
             if len(words) != 2 or (time is None) == (mode is None):
-                raise _bad(path, at, "a row of a mode or a time, its type and its values was expected")
+                raise damaged(path, at, "a row of a mode or a time, its type and its values was expected")
             if words[1] != "M":
                 points[words[1]] = points.get(words[1], 0) + 1
             else:
-                first = _real(path, at, words[0])
+                first = real(path, at, words[0])
                 number, when = (int(first), time or 0.0) if mode is None else (mode, first)
                 of_mode = samples.setdefault(number, {})
                 if when in of_mode:
-                    raise _bad(path, at, f"mode {number} has two coordinates at {when:.9g} s")
-                of_mode[when] = _real(path, at, line[18:36])
+                    raise damaged(path, at, f"mode {number} has two coordinates at {when:.9g} s")
+                of_mode[when] = real(path, at, line[18:36])
                 _refuse_more_values(path, at, line[36:72])
         at += 1
 
@@ -86,7 +87,7 @@ def _stated(path: Path, lines: list[str], at: int) -> tuple[int, float | None, i
         if found := _SUBCASE.match(line):
             subcase = int(found[1])
         elif found := _TIME.match(line):
-            time = _real(path, at, found[1])
+            time = real(path, at, found[1])
         elif found := _POINT.match(line):
             mode = int(found[1])
             if found[2] not in (None, "TIME"):
@@ -101,8 +102,8 @@ def _stated(path: Path, lines: list[str], at: int) -> tuple[int, float | None, i
 def _refuse_more_values(path: Path, at: int, fields: str) -> None:
     """Refuse values beside the first of a row: a mode has one coordinate, the other fields hold zeros."""
     for k in range(0, len(fields.rstrip()), 18):
-        if fields[k : k + 18].strip() and _real(path, at, fields[k : k + 18]) != 0.0:
-            raise _bad(
+        if fields[k : k + 18].strip() and real(path, at, fields[k : k + 18]) != 0.0:
+            raise damaged(
                 path, at, f"{fields[k : k + 18].strip()} stands beside the coordinate of a mode, where zeros belong"
             )
 
@@ -127,16 +128,3 @@ def _group(path: Path, subcase: int, samples: _Samples, subcases: int, warnings:
 def _values(table: NDArray[np.float64], at: Sequence[int]) -> NDArray[np.floating]:
     """Coordinates (k, t) of some modes."""
     return table[list(at)]
-
-
-def _real(path: Path, at: int, text: str) -> float:
-    try:
-        return float(text.strip().upper().replace("D", "E").replace("_", "?"))
-    except ValueError:
-        raise _bad(path, at, f"{text.strip()!r} is no number") from None
-
-
-def _bad(path: Path, at: int, found: str) -> DataError:
-    return DataError(
-        Problem("punch_damaged", f"{path}, line {at + 1}", found, "Copy the punch file again in text mode")
-    )
