@@ -45,7 +45,7 @@ def share_that_meets(held: Floats, own: Floats, rest: Floats, allowed: Floats | 
     >>> share_that_meets(np.zeros(1), np.array([4e-8]), np.array([(3e-8 + 1.2e-8) / 0.3]), 1.0 / 1.2e7).round(6)
     array([0.566667])
     """
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         return np.asarray((allowed - held - rest) / (own - rest))
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from fatigue.decide.backsolve.closed import km_per_year, share_that_meets, shares_that_meet, strength_factor
@@ -30,6 +30,7 @@ def test_share_of_an_event():
 
 
 @given(st.floats(0.0, 2.0), st.floats(0.0, 3.0), st.floats(0.0, 3.0), st.floats(0.01, 3.0))
+@example(0.0, 0.0, 2.2e-311, 1.0)  # the share overflows
 def test_spans_hold_what_meets(held, own, rest, allowed):
     """Every share inside the span meets what is allowed, every one outside does not."""
     span = shares_that_meet(*(np.array([value]) for value in (held, own, rest)), allowed)
