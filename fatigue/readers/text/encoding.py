@@ -69,6 +69,11 @@ def decoded(path: Path, data: bytes) -> tuple[str, Encoding]:
     return text, encoding
 
 
+def unreadable(path: Path, error: OSError) -> DataError:
+    """Refusal of a file that cannot be opened or read."""
+    return DataError(Problem("unreadable", str(path), f"it cannot be read ({error})", "Check the path"))
+
+
 def read_text(path: Path) -> tuple[str, Encoding]:
     """Text and encoding of a whole file, as ``decoded``.
 
@@ -79,7 +84,7 @@ def read_text(path: Path) -> tuple[str, Encoding]:
     try:
         data = path.read_bytes()
     except OSError as error:
-        raise DataError(Problem("unreadable", str(path), f"it cannot be read ({error})", "Check the path")) from error
+        raise unreadable(path, error) from error
     return decoded(path, data)
 
 
@@ -142,7 +147,7 @@ def read_head(path: Path) -> tuple[str, Encoding, bool]:
         with path.open("rb") as file:
             head = file.read(LONG_HEAD_BYTES)
     except OSError as error:
-        raise DataError(Problem("unreadable", str(path), f"it cannot be read ({error})", "Check the path")) from error
+        raise unreadable(path, error) from error
     if len(head) < LONG_HEAD_BYTES or marked_encoding(head) != "utf-8":
         return (*read_text(path), True)
     return (*decoded(path, head[: head.rfind(b"\n") + 1]), False)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from fatigue.errors import DataError, Problem
 from fatigue.files.naming import missing_foreign_file
-from fatigue.readers.text.encoding import marked_encoding
+from fatigue.readers.text.encoding import marked_encoding, unreadable
 
 _FIRST = re.compile(
     r"^\s*\*\s*(heading|node|element|part|assembly|include|preprint|solid section|shell section|nset|elset|material)\b",
@@ -89,7 +89,7 @@ def _lines(path: Path, root: Path, included: list[Path], depth: int) -> Iterator
     except (FileNotFoundError, IsADirectoryError):
         raise DataError(missing_foreign_file(path)) from None
     except OSError as error:
-        raise DataError(Problem("unreadable", str(path), f"it cannot be read ({error})", "Check the path")) from error
+        raise unreadable(path, error) from error
     pending, first = "", 0
     for number, raw in enumerate(text.splitlines(), 1):
         line = raw.strip()

@@ -13,6 +13,7 @@ from fatigue.errors import DataError, Problem
 from fatigue.readers.foreign.ansys.blocks import Lines, fields_of, number, numbers, whole_numbers
 from fatigue.readers.foreign.ansys.elements import SECTIONED, SHELLS, SOLIDS, element_of
 from fatigue.readers.foreign.fe.model import FeModel, Section, Shell, Solid, others_left_out, shell_mesh, solid_mesh
+from fatigue.readers.text.encoding import unreadable
 
 _HEAD = re.compile(r"(?im)^(?:NBLOCK,|EBLOCK,|/PREP7|/COM,)")
 _REAL = 1_000_000_000  # added to the numbers of real constants, so that they are told from sections
@@ -56,7 +57,7 @@ def read_archive(path: Path) -> FeModel:
     try:
         text = path.read_text("utf-8", errors="replace")
     except OSError as error:
-        raise DataError(Problem("unreadable", str(path), f"it cannot be read ({error})", "Check the path")) from error
+        raise unreadable(path, error) from error
     archive, lines = Archive(), Lines(str(path), text.splitlines())
     for line in lines:
         words = [word.strip() for word in line.split("!")[0].split(",")]

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem
+from fatigue.readers.text.encoding import unreadable
 
 VERSION = 1
 HEAD = re.compile(r"\Afatigue export (\d+) (\S+) ?([^\r\n]*)\r?\n")
@@ -74,7 +75,7 @@ def blocks(path: Path, wanted: frozenset[str] | None = None) -> Iterator[Block]:
                     raise damaged(path, number, f"the block *{name} is to have {rows} rows, and the text ends before")
                 number += rows
     except OSError as error:
-        raise DataError(Problem("unreadable", str(path), f"it cannot be read ({error})", "Check the path")) from error
+        raise unreadable(path, error) from error
 
 
 def solver_of(path: Path) -> str:

@@ -13,6 +13,7 @@ from fatigue.readers.foreign.fe.results import REQUEST, FeResults, ForceBlock
 from fatigue.readers.foreign.fe.static_case import Heading, heading
 from fatigue.readers.foreign.nastran.results.punch_fields import damaged, real
 from fatigue.readers.neutral.body.modes import LOWEST_HZ
+from fatigue.readers.text.encoding import unreadable
 
 _HEADING = "$GRID POINT FORCE BALANCE"
 _EIGENVALUE = re.compile(r"\$EIGENVALUE\s*=\s*([-+.\dED]+)\s+MODE\s*=\s*(\d{1,9})", re.ASCII)
@@ -47,7 +48,7 @@ def read_punch(
     try:
         lines = path.read_text("ascii", errors="replace").splitlines()
     except OSError as error:
-        raise DataError(Problem("unreadable", str(path), f"it cannot be read ({error})", "Check the path")) from error
+        raise unreadable(path, error) from error
     heads = [k for k, line in enumerate(lines) if line.startswith(_HEADING)]
     if not heads:
         raise DataError(Problem("no_forces", str(path), f"no block begins with {_HEADING}", REQUEST))

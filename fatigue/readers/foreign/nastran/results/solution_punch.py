@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from fatigue.errors import DataError, Problem
 from fatigue.readers.foreign.channels.group import ChannelGroup, RecordedChannel
 from fatigue.readers.foreign.nastran.results.punch_fields import damaged, real
+from fatigue.readers.text.encoding import unreadable
 
 REQUEST = "Request SDISPLACEMENT(PUNCH,REAL) = ALL in the modal transient run (SOL 112)"
 _HEADING = re.compile(r"\$DISPLACEMENTS?\b[^A-Z]*SOLUTION SET", re.IGNORECASE)
@@ -37,7 +38,7 @@ def read_solution_punch(path: Path) -> tuple[ChannelGroup, ...]:
     try:
         lines = path.read_text("ascii", errors="replace").splitlines()
     except OSError as error:
-        raise DataError(Problem("unreadable", str(path), f"it cannot be read ({error})", "Check the path")) from error
+        raise unreadable(path, error) from error
     heads = [k for k, line in enumerate(lines) if _HEADING.match(line)]
     if not heads:
         what = "the punch file has no displacements of the solution set"
