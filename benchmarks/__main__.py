@@ -11,6 +11,7 @@ from threadpoolctl import threadpool_limits
 from benchmarks import peers, pipeline, processes
 from benchmarks.decisions import what_if
 from benchmarks.finite_elements import finite_elements
+from benchmarks.panel import large_mesh
 from benchmarks.shear import shear
 
 PARTS = {
@@ -25,6 +26,7 @@ PARTS = {
     "memory": processes.memory,
     "shear": shear,
     "finite-elements": finite_elements,
+    "large-mesh": large_mesh,
     "what-if": what_if,
 }
 

@@ -57,7 +57,8 @@ class Topology:
 
     def sides_of(self, edge: int) -> list[int]:
         """Sides that meet at an edge."""
-        return [int(s) for s in self.sides[self.first[edge] : self.first[edge + 1]]]
+        sides: list[int] = self.sides[self.first.item(edge) : self.first.item(edge + 1)].tolist()
+        return sides
 
     def is_smooth(self, a: int, b: int) -> bool:
         """Whether the elements of two sides of one edge continue each other as one plate."""
@@ -66,18 +67,22 @@ class Topology:
 
 def topology(mesh: ShellMesh) -> Topology:
     """Edges of a mesh and the sides of elements that meet there."""
-    ends = np.sort(mesh.side_ends().reshape(-1, 2), axis=1)
-    used = np.flatnonzero(ends[:, 0] != NONE)
-    unique, which = np.unique(ends[used], axis=0, return_inverse=True)
+    ends, nodes = mesh.side_ends().reshape(-1, 2), len(mesh.node)
+    both = ends.min(axis=1) * nodes + ends.max(axis=1)  # one number for two nodes: faster to sort
+    sides = np.flatnonzero(ends[:, 0] != NONE)
+    sides = sides[np.argsort(both[sides], kind="stable")]
+    both = both[sides]
+    begins = np.diff(both, prepend=-1) != 0
     edge = np.full(len(ends), NONE, np.int64)
-    edge[used] = which.ravel()
-    order = np.argsort(edge[used], kind="stable")
+    edge[sides] = np.cumsum(begins) - 1
+    first = np.flatnonzero(np.append(begins, True))
+    both = both[begins]
     return Topology(
         mesh=mesh,
-        ends=unique,
+        ends=np.stack([both // nodes, both % nodes], axis=1),
         edge=edge,
-        sides=used[order],
-        first=np.searchsorted(edge[used][order], np.arange(len(unique) + 1)),
+        sides=sides,
+        first=first,
         inward=inward(mesh).reshape(-1, 3),
         normal=normals(mesh),
         centroid=centroids(mesh),

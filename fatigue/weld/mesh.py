@@ -10,6 +10,8 @@ from fatigue.weld.line_geometry import unit
 NONE = -1
 """Index of a corner or a mid-side node an element does not have."""
 
+AT_ONCE = 16384  # elements whose sides are worked out together: what is needed on the way stays small
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ShellMesh:
@@ -48,8 +50,9 @@ class ShellMesh:
 
 def centroids(mesh: ShellMesh) -> NDArray[np.float64]:
     """Mean of each element's corners, (e, 3) [mm]."""
-    used = mesh.corner != NONE
-    total = np.where(used[:, :, None], mesh.xyz[mesh.corner], 0.0).sum(axis=1)
+    used, total = mesh.corner != NONE, np.zeros((len(mesh.corner), 3))
+    for corner, has in zip(mesh.corner.T, used.T, strict=True):
+        total += np.where(has[:, None], mesh.xyz[corner], 0.0)
     return np.asarray(total / used.sum(axis=1)[:, None])
 
 
@@ -63,8 +66,11 @@ def normals(mesh: ShellMesh) -> NDArray[np.float64]:
 
 def inward(mesh: ShellMesh) -> NDArray[np.float64]:
     """Unit vector from each side into its element, normal to the side, (e, 4, 3); zero on no side."""
-    ends = mesh.side_ends()
-    along = mesh.xyz[ends[:, :, 1]] - mesh.xyz[ends[:, :, 0]]
-    vector = unit(np.cross(normals(mesh)[:, None, :], along))
+    ends, normal = mesh.side_ends(), normals(mesh)
+    vector = np.empty((len(ends), 4, 3))
+    for first in range(0, len(ends), AT_ONCE):
+        some = slice(first, first + AT_ONCE)
+        along = mesh.xyz[ends[some, :, 1]] - mesh.xyz[ends[some, :, 0]]
+        vector[some] = unit(np.cross(normal[some, None, :], along))
     vector[ends[:, :, 1] == NONE] = 0.0
     return vector

@@ -200,6 +200,26 @@ def test_triangles_and_fans():
     assert not sides[0] & sides[1]
 
 
+@settings(deadline=None, max_examples=25)
+@given(st.integers(0, 2**32 - 1))
+def test_edges_are_the_pairs_of_nodes_that_sides_join(seed):
+    """Quads and triangles in any order: pairs ascending, and the sides of each edge are those that join its nodes."""
+    rng = np.random.default_rng(seed)
+    corner = np.array([rng.permutation(9)[:4] for _ in range(12)])
+    corner[rng.random(12) < 0.4, 3] = -1
+    topo = topology(shell_mesh(rng.normal(size=(9, 3)), corner, np.ones(12, int)))
+    joins = {}
+    for element, corners in enumerate(corner.tolist()):
+        nodes = [node for node in corners if node >= 0]
+        for k, (a, b) in enumerate(zip(nodes, nodes[1:] + nodes[:1], strict=True)):
+            joins.setdefault((min(a, b), max(a, b)), []).append(4 * element + k)
+    assert [tuple(pair) for pair in topo.ends.tolist()] == sorted(joins)
+    for edge, pair in enumerate(sorted(joins)):
+        assert topo.sides_of(edge) == joins[pair]
+        assert all(topo.edge[side] == edge for side in joins[pair])
+    assert (topo.edge.reshape(-1, 4)[corner[:, 3] < 0, 3] == -1).all()
+
+
 def test_stacked_elements():
     """Two shells on the same nodes are told."""
     mesh = assembly(*TEE)

@@ -72,3 +72,13 @@ def test_renumbering_the_corners_renumbers_the_sides(corner):
     turned = [*corner[1:count], corner[0], *corner[count:]]
     first, second = (inward(mesh(corner=np.array([c])))[0, :count] for c in (corner, turned))
     np.testing.assert_allclose(second, np.roll(first, -1, axis=0), atol=1e-15)
+
+
+def test_sides_of_many_elements_are_those_of_each_alone(monkeypatch):
+    """However many are worked out together."""
+    rng = np.random.default_rng(3)
+    corner = np.array([rng.permutation(len(XYZ))[:4] for _ in range(11)])
+    corner[::3, 3] = NONE
+    whole = inward(mesh(corner=corner))
+    monkeypatch.setattr("fatigue.weld.mesh.AT_ONCE", 4)
+    assert inward(mesh(corner=corner)).tobytes() == whole.tobytes()

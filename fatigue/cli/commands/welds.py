@@ -60,7 +60,6 @@ def welds(
 
     from fatigue.errors import DataError, Problem
     from fatigue.readers.convert.weld_lines import list_welds
-    from fatigue.report.files.vtp import write_line_picture
 
     with narrated(quiet=is_quiet()):
         stage("finding weld lines")
@@ -70,6 +69,8 @@ def welds(
         what = f"none of the {len(found.rows)} weld lines has '{only}' in its name"
         raise DataError(Problem("no_welds", str(mesh), what, f"Give a part of a name, such as {found.rows[0].weld}"))
     if vtp is not None:
+        from fatigue.report.files.vtp import write_line_picture
+
         write_line_picture(vtp, [found.cuts[row.line].line for row in rows if row.line in found.cuts], overwrite=force)
     for problem in found.warnings:
         say(f"note: {problem}", err=True)

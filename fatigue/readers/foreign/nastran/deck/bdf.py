@@ -35,7 +35,7 @@ def read_bdf(path: Path) -> FeModel:
     bulk = Bulk(str(path))
     left_out = LeftOut()
     problems: list[Problem] = []
-    for card in cards(deck.bulk, HANDLERS, left_out, problems):
+    for card in cards(deck.taken(), HANDLERS, left_out, problems):
         try:
             HANDLERS[card.name](bulk, card)
         except DataError as error:
@@ -56,16 +56,19 @@ def _model(bulk: Bulk, deck: Deck, left_out: LeftOut, problems: list[Problem]) -
     xyz: dict[int, NDArray[np.float64]] = {}
     default_cp, default_cd = bulk.default(1), bulk.default(5)
 
-    def position(grid: int) -> NDArray[np.float64]:
+    def place(grid: int, card: Card) -> NDArray[np.float64]:
         if grid not in xyz:
-            if grid not in bulk.grids:
-                raise DataError(
-                    Problem("no_grid", bulk.source, f"grid {grid} of a coordinate system does not exist", "Define it")
-                )
-            card = bulk.grids[grid]
             cp = card.integer(1, default_cp)
             xyz[grid] = frames.position(cp, (card.real(2, 0.0), card.real(3, 0.0), card.real(4, 0.0)))
         return xyz[grid]
+
+    def position(grid: int) -> NDArray[np.float64]:
+        if grid in xyz:
+            return xyz[grid]
+        if grid not in bulk.grids:
+            what = f"grid {grid} of a coordinate system does not exist"
+            raise DataError(Problem("no_grid", bulk.source, what, "Define it"))
+        return place(grid, bulk.grids[grid])
 
     frames = Frames(bulk.source, {cid: frame for cid, (frame, _) in bulk.frames.items()}, position)
     cd: dict[int, int] = {}
@@ -74,24 +77,26 @@ def _model(bulk: Bulk, deck: Deck, left_out: LeftOut, problems: list[Problem]) -
     properties = {pid: found for pid, (found, _) in bulk.properties.items()}
     for grid, card in bulk.grids.items():
         try:
-            position(grid)
-            cd[grid] = _output_frame(card, default_cd)
+            place(grid, card)
+            if frame := _output_frame(card, default_cd):
+                cd[grid] = frame
         except DataError as error:
             problems += error.problems
-    for card in bulk.shells.values():
+    bulk.grids.packed.clear()
+    for _, card in bulk.shells.taken():
         try:
             shells.append(shell(card, properties))
         except DataError as error:
             problems += error.problems
-    for card in bulk.solids.values():
+    for _, card in bulk.solids.taken():
         try:
             solids.append(solid(card))
         except DataError as error:
             problems += error.problems
     _refuse_some(list(dict.fromkeys(_with_unread_frames(problems, left_out))))
     if not shells and not solids:
-        raise DataError(_no_shells(bulk, left_out))
-    turned = sorted(grid for grid, c in cd.items() if c)
+        raise DataError(_no_shells(bulk, len(xyz), left_out))
+    turned = sorted(cd)
     sets, set_warnings = joined_sets(bulk.sets, deck.control)
     return FeModel(
         source=bulk.source,
@@ -115,12 +120,12 @@ def _model(bulk: Bulk, deck: Deck, left_out: LeftOut, problems: list[Problem]) -
     )
 
 
-def _no_shells(bulk: Bulk, left_out: LeftOut) -> Problem:
+def _no_shells(bulk: Bulk, grids: int, left_out: LeftOut) -> Problem:
     """Say which elements the deck has instead."""
     others = bulk.bars | {name: n for name, n in left_out.count.items() if _is_element(name)}
     found = ", ".join(f"{n} {name}" for name, n in sorted(others.items())) or "no element at all"
     what = f"the model has no shell elements ({', '.join(SHELLS)}) and no solid ones ({', '.join(SOLIDS)}): "
-    what += f"{len(bulk.grids)} grids, {found}"
+    what += f"{grids} grids, {found}"
     return Problem("no_shells", bulk.source, what, "Give the bulk data that holds the plates")
 
 

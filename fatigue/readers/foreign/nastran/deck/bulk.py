@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from fatigue.errors import DataError, Problem
-from fatigue.readers.foreign.nastran.deck.card import Card
+from fatigue.readers.foreign.nastran.deck.card import Card, KeptCards
 from fatigue.readers.foreign.nastran.deck.notes import Twice
 from fatigue.readers.foreign.nastran.deck.sets import set_on_card
 from fatigue.readers.foreign.nastran.deck.shells import SHELLS, Property, pcomp, pshell
@@ -20,12 +20,12 @@ class Bulk:
     """What the cards of a deck leave behind."""
 
     source: str
-    grids: dict[int, Card] = field(default_factory=dict)
+    grids: KeptCards = field(default_factory=KeptCards)
     grids_again: list[Card] = field(default_factory=list)
     grdset: Card | None = None
     frames: dict[int, tuple[FrameCard, Card]] = field(default_factory=dict)
-    shells: dict[int, Card] = field(default_factory=dict)
-    solids: dict[int, Card] = field(default_factory=dict)
+    shells: KeptCards = field(default_factory=KeptCards)
+    solids: KeptCards = field(default_factory=KeptCards)
     properties: dict[int, tuple[Property, Card]] = field(default_factory=dict)
     sets: dict[int, list[int]] = field(default_factory=dict)
     markers: dict[str, list[tuple[int, int]]] = field(default_factory=dict)
@@ -47,8 +47,10 @@ def _grid(bulk: Bulk, card: Card) -> None:
                 "superelement", card.where, f"grid {grid} belongs to superelement {card.text(7)}", "Give the residual"
             )
         )
-    if bulk.grids.setdefault(grid, card) is not card:
+    if grid in bulk.grids:
         bulk.grids_again.append(card)
+    else:
+        bulk.grids[grid] = card
 
 
 def grids_twice(bulk: Bulk) -> list[Problem]:
@@ -142,10 +144,11 @@ def _psolid(bulk: Bulk, card: Card) -> None:
         raise DataError(Problem("fluid_solid", card.where, what, "Give the structure alone"))
 
 
-def _add_element(bulk: Bulk, card: Card, known_cards: dict[int, Card]) -> None:
+def _add_element(bulk: Bulk, card: Card, known_cards: KeptCards) -> None:
     element = card.identity()
-    known = bulk.shells.get(element) or bulk.solids.get(element)
-    if known is None:
+    kept = next((some for some in (bulk.shells, bulk.solids) if element in some), None)
+    known = card if kept is None else kept[element]
+    if kept is None:
         known_cards[element] = card
     elif same_card(known, card):
         bulk.twice.add(card.name, card.text(0), card.where)

@@ -1,6 +1,7 @@
 """One bulk data card of NASTRAN: its fields as text, ids and numbers, and its place in the deck."""
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, field
 
 from fatigue.errors import DataError, Problem
 from fatigue.readers.foreign.nastran.deck.fields import FREE
@@ -77,3 +78,38 @@ class Card:
         if "," in text:
             remedy += f"; only a comma in the first {FREE} columns separates fields"
         return DataError(Problem("bad_field", self.where, f"{self.name} field {at + 2} {found}", remedy))
+
+
+@dataclass(slots=True)
+class KeptCards:
+    """Cards by id in the order in which they came, their fields as one text each: a third of the memory."""
+
+    packed: dict[int, tuple[str, str, str, int]] = field(default_factory=dict)
+
+    def __len__(self) -> int:
+        """Count the cards."""
+        return len(self.packed)
+
+    def __contains__(self, number: int) -> bool:
+        """Whether there is a card of this id."""
+        return number in self.packed
+
+    def __getitem__(self, number: int) -> Card:
+        """Card of an id."""
+        name, fields, source, line = self.packed[number]
+        return Card(name, tuple(fields.split("\n")), source, line)
+
+    def __setitem__(self, number: int, card: Card) -> None:
+        """Keep a card, in place of the one that had the id."""
+        self.packed[number] = card.name, "\n".join(card.fields), card.source, card.line
+
+    def items(self) -> Iterator[tuple[int, Card]]:
+        """Give ids and cards."""
+        return ((number, self[number]) for number in self.packed)
+
+    def taken(self) -> Iterator[tuple[int, Card]]:
+        """Give ids and cards, and keep none of them: what is made of them has their memory."""
+        for number in list(self.packed):
+            card = self[number]
+            del self.packed[number]
+            yield number, card

@@ -41,6 +41,12 @@ class Deck:
     warnings: tuple[Problem, ...] = ()
     included: tuple[Path, ...] = ()
 
+    def taken(self) -> Iterator[Line]:
+        """Give the bulk data lines, and keep none of them: what is made of them has their memory."""
+        self.bulk.reverse()
+        while self.bulk:
+            yield self.bulk.pop()
+
 
 @dataclass(slots=True)
 class _Reading:
