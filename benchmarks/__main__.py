@@ -16,7 +16,7 @@ from benchmarks.shear import shear
 
 PARTS = {
     "pipeline": pipeline.against_the_product,
-    "plain": processes.plain_loops,
+    "processors": processes.processors,
     "growth": pipeline.growth,
     "threads": pipeline.threads,
     "counting": peers.counting,

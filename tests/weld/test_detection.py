@@ -209,8 +209,8 @@ def test_edges_are_the_pairs_of_nodes_that_sides_join(seed):
     corner[rng.random(12) < 0.4, 3] = -1
     topo = topology(shell_mesh(rng.normal(size=(9, 3)), corner, np.ones(12, int)))
     joins = {}
-    for element, corners in enumerate(corner.tolist()):
-        nodes = [node for node in corners if node >= 0]
+    for element, of_element in enumerate(corner.tolist()):
+        nodes = [node for node in of_element if node >= 0]
         for k, (a, b) in enumerate(zip(nodes, nodes[1:] + nodes[:1], strict=True)):
             joins.setdefault((min(a, b), max(a, b)), []).append(4 * element + k)
     assert [tuple(pair) for pair in topo.ends.tolist()] == sorted(joins)

@@ -1,6 +1,9 @@
 """The counter in single precision against the double precision one, the `rainflow` package and its own plain loops."""
 
 import importlib.util
+import os
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from types import FunctionType
@@ -412,3 +415,40 @@ def test_the_plain_loops_are_used_where_there_are_no_vectors(monkeypatch: pytest
     for features, bits in (("", 0), ("+sse2", 0), ("+avx2,+fma", 256), ("+avx2,+avx512f", 512)):
         monkeypatch.setattr(simd.config, "CPU_FEATURES", features)
         assert simd.vector_bits() == bits
+
+
+KEPT = """
+import numpy as np
+from numba.core.registry import cpu_target
+from fatigue.life.counting.single.kernels import loops, simd, state
+loops.close_all(state.room_for(40, 0, np.float32), 0, np.float32(0.0))
+_, name, features = cpu_target.target_context.codegen().magic_tuple()
+has = set(features.split(","))
+wide = 512 if "+avx512f" in has else 256 if "+avx2" in has else 0
+print(simd.WIDTH, wide, sum(loops.close_all.stats.cache_hits.values()))
+"""
+AVX2 = {"NUMBA_CPU_NAME": "haswell", "NUMBA_CPU_FEATURES": "+avx,+avx2,+fma"}
+
+
+@vector_instructions
+@pytest.mark.slow
+def test_machine_code_of_other_vectors_is_never_taken(tmp_path: Path) -> None:
+    """A folder of machine code copied to another processor serves it only where vectors and features are the same."""
+
+    def width_and_hits(**environment: str) -> list[int]:
+        where = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path)} | environment
+        command = [sys.executable, "-c", KEPT]
+        done = subprocess.run(command, env=where, capture_output=True, text=True, check=True)
+        width, of_features, hits = map(int, done.stdout.split())
+        assert width == of_features
+        return [width, hits]
+
+    own, _ = width_and_hits()
+    if own < 256:
+        pytest.skip("not on this processor")
+    assert width_and_hits() == [own, 1]
+    for width, environment in ((256, AVX2), (0, {"NUMBA_CPU_NAME": "generic"}), (0, {"NUMBA_ENABLE_AVX": "0"})):
+        assert width_and_hits(**environment) == [width, 0]
+        assert width_and_hits(**environment) == [width, 1]
+    assert width_and_hits(NUMBA_CPU_NAME="haswell") == [own, 0]  # a name alone leaves the features as they are
+    assert width_and_hits() == [own, 1]

@@ -13,9 +13,10 @@ from collections.abc import Callable
 from typing import Any, cast
 
 import numpy as np
-from llvmlite import binding, ir
+from llvmlite import ir
 from numba import types
 from numba.core import cgutils, config
+from numba.core.codegen import get_host_cpu_features
 from numba.extending import intrinsic
 from numpy.typing import NDArray
 
@@ -31,13 +32,14 @@ I1, I8, I32, I64 = ir.IntType(1), ir.IntType(8), ir.IntType(32), ir.IntType(64)
 
 
 def vector_bits() -> int:
-    """Width of the vectors of the processor that numba compiles for: 512 with AVX-512, 256 with AVX2, 0 otherwise."""
-    chosen = vars(config)  # by environment variables, for another processor than this one
-    if chosen["CPU_NAME"] or chosen["CPU_FEATURES"] is not None:
-        named = (chosen["CPU_FEATURES"] or "").split(",")
-        return 512 if "+avx512f" in named else 256 if "+avx2" in named else 0
-    has = binding.get_host_cpu_features()
-    return 512 if has.get("avx512f") else 256 if has.get("avx2") else 0
+    """Width of the vectors that numba compiles for: 512 with AVX-512, 256 with AVX2, 0 otherwise.
+
+    By the features that numba gives to LLVM, those of this processor unless environment variables name others. They are
+    part of the key of what it keeps on disk, so machine code of another width is never taken for this one.
+    """
+    chosen = vars(config)["CPU_FEATURES"]
+    features = (get_host_cpu_features() if chosen is None else chosen).split(",")
+    return 512 if "+avx512f" in features else 256 if "+avx2" in features else 0
 
 
 WIDTH = vector_bits()
