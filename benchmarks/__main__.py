@@ -1,4 +1,4 @@
-"""Measure everything and print one table: ``python -m benchmarks [part ...]``."""
+"""Measure everything and print one table: ``python -m benchmarks [part ...]``; beside others: ``ledger``."""
 
 import platform
 import sys
@@ -11,6 +11,7 @@ from threadpoolctl import threadpool_limits
 from benchmarks import peers, pipeline, processes
 from benchmarks.decisions import what_if
 from benchmarks.finite_elements import finite_elements
+from benchmarks.ledger.command import main as ledger
 from benchmarks.panel import large_mesh
 from benchmarks.shear import shear
 
@@ -32,7 +33,10 @@ PARTS = {
 
 
 def main() -> None:
-    """Run the parts that are named, or all of them."""
+    """Run the parts that are named, or all of them; or the ledger."""
+    if sys.argv[1:2] == ["ledger"]:
+        ledger(sys.argv[2:])
+        return
     unknown = set(sys.argv[1:]) - set(PARTS)
     if unknown:
         raise SystemExit(f"unknown part {', '.join(sorted(unknown))}; there are {', '.join(PARTS)}")

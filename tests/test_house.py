@@ -67,8 +67,8 @@ def test_folders_stay_readable():
 
 
 def test_tests_mirror_the_package():
-    """A folder of tests is named for the room it tests, those for sources, damaged files and a solver apart."""
-    apart = {"validation", "fuzz", "mutation", "mystran"}
+    """A folder of tests is named for the room it tests; sources, damaged files, a solver, benchmarks are apart."""
+    apart = {"validation", "fuzz", "mutation", "mystran", "benchmarks"}
     folders = {p.parent.relative_to(ROOT / "tests") for p in (ROOT / "tests").rglob("test_*.py")}
     assert not [
         str(f)

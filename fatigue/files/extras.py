@@ -9,6 +9,8 @@ REQUIREMENTS = {
     "pyuff": "pyuff>=2.4",
     "xlsxwriter": "xlsxwriter>=3.2",
     "FLife": "FLife>=2.3",
+    "fatpack": "fatpack>=0.7.8",
+    "pylife": "pylife>=2.1",
     "pyyeti": "pyyeti>=1.4",
 }
 """What pip is asked for, by the name that is imported; the same as in the optional dependencies of the project."""
