@@ -9,7 +9,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from benchmarks import peers, pipeline, processes
-from benchmarks.decisions import what_if
+from benchmarks.decisions import what_if, what_if_command
 from benchmarks.finite_elements import finite_elements
 from benchmarks.ledger.command import main as ledger
 from benchmarks.panel import large_mesh
@@ -29,6 +29,7 @@ PARTS = {
     "finite-elements": finite_elements,
     "large-mesh": large_mesh,
     "what-if": what_if,
+    "what-if-command": what_if_command,
 }
 
 

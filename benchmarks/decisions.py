@@ -1,10 +1,12 @@
 """Decisions from a result of a million points: beside the bare sums of stored damages that they cannot do without."""
 
+import tempfile
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
+from benchmarks.long_records import measured
 from benchmarks.timing import Row, best_times
 from fatigue.decide.whatif.change import Change, Mission
 from fatigue.decide.whatif.curves import Curves, OneCurve
@@ -13,8 +15,10 @@ from fatigue.decide.whatif.stored import Kind, Stored, StoredRanges
 from fatigue.life.curves import catalogue, damage_law
 from fatigue.life.rule import CycleRule
 from fatigue.pipeline.solve.rated.rated_curves import RatedCurve
+from fatigue.synth import Size, synthesize
 
 POINTS, EVENTS, WELDS = 1_000_000, 13, 20_000
+FEW, MANY = 500, 50_000  # weld nodes of results; each has two points
 RULES = {"screening": {"share_of_limit": 0.0}}
 
 
@@ -42,6 +46,34 @@ def what_if() -> list[Row]:
         )
         for name in ("shares", "load")
     ]
+
+
+def what_if_command() -> list[Row]:
+    """The whole command, beside the same on a small result: what start-up takes, and what a point more takes."""
+    cpu = {}
+    with tempfile.TemporaryDirectory() as folder:
+        for nodes in (FEW, MANY):
+            case = synthesize(Path(folder) / f"case {nodes}", Size(nodes, 2, EVENTS, 4.0, 50.0))
+            case.write_text(case.read_text().replace("[curve]", "[counting]\nupsample = 1\n[curve]"))
+            result = str(Path(folder) / f"result {nodes}")
+            _run(["assess", str(case), "-o", result, "--exact", "--no-report", "--exit-zero"])
+            words = ["whatif", result, "--set", "load=1.1", "--exit-zero"]
+            cpu[nodes] = min(_run(words) for _ in range(5))
+    million = 1e6 * (cpu[MANY] - cpu[FEW]) / (2 * (MANY - FEW))
+    what = f"fatigue whatif --set load=1.1, {EVENTS} events, processor time"
+    return [
+        (f"{what}, {2 * FEW:,} points: start-up", f"{cpu[FEW]:.2f} s"),
+        (f"{what}, {2 * MANY:,} points", f"{cpu[MANY]:.2f} s"),
+        (f"{what}, each million points more", f"{million:.1f} s"),
+    ]
+
+
+def _run(words: list[str]) -> float:
+    """Processor time [s] of a command."""
+    code, cpu, _, _ = measured(words)
+    if code:
+        raise SystemExit(f"fatigue {words[0]} ended with {code}")
+    return cpu
 
 
 def _stored() -> Stored:
