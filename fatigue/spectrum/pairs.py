@@ -5,10 +5,14 @@ matrix holds every number beside the diagonal twice, so this takes half the prod
 together it is one matrix product, of their weights with the products of the pairs.
 """
 
+from typing import TypeVar
+
 import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.compiled import compiled
+
+T = TypeVar("T", np.float32, np.float64)
 
 BLOCK_POINTS = 32  # their products of pairs, of a hundred modes in single precision, stay in the second-level cache
 
@@ -25,8 +29,11 @@ def weights_of_pairs(modes: int) -> NDArray[np.float64]:
     return np.where(first == second, 1.0, 2.0)
 
 
-def pair_forms(modal_stress: NDArray[np.floating], weights: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Quadratic forms, (p, n), given by their weights (p, pairs), of all rows of ``modal_stress`` (n, m)."""
+def pair_forms(modal_stress: NDArray[np.floating], weights: NDArray[T]) -> NDArray[T]:
+    """Quadratic forms, (p, n), given by their weights (p, pairs), of all rows of ``modal_stress`` (n, m).
+
+    In the precision of the weights.
+    """
     forms = np.empty((len(weights), len(modal_stress)), dtype=weights.dtype)
     for begin in range(0, len(modal_stress), BLOCK_POINTS):
         block = modal_stress[begin : begin + BLOCK_POINTS].T.astype(weights.dtype, order="C")
@@ -37,7 +44,7 @@ def pair_forms(modal_stress: NDArray[np.floating], weights: NDArray[np.float32])
 
 
 @compiled()
-def _multiply_pairs(block: NDArray[np.float32], products: NDArray[np.float32]) -> None:
+def _multiply_pairs(block: NDArray[np.floating], products: NDArray[np.floating]) -> None:
     """Write the products of all pairs of the modes of some points, (m, n), as (pairs, n), in the order of ``pairs``."""
     pair = 0
     for first in range(len(block)):

@@ -28,6 +28,7 @@ from fatigue.spectrum.scatter import period_taper, principal_scatter
 
 FEWEST_PERIODS = 8  # below, a scatter between periods says nothing
 LARGEST_EXPONENT = 40  # of 2: stresses of 1e12 MPa, whose squares are far below 3e38
+CANCELLED = 1e-3  # of the variances of its modes: of a smaller variance single precision leaves three digits at most
 MOST_PERIODS = 32  # into which a long record is cut: more would cost time and tell no more
 
 
@@ -35,7 +36,7 @@ MOST_PERIODS = 32  # into which a long record is cut: more would cost time and t
 class PeriodMatrices:
     """Variance of the modal coordinates period by period, and the scatter to be expected of it by chance.
 
-    The forms belong to coordinates scaled to unit variance, in single precision: they take ``modal_stress * rms``.
+    The forms belong to coordinates scaled to unit variance: they take ``modal_stress * rms``.
     Each is a row of ``forms``, its weights of the ``pairs`` of modes: first the variance of each period, then the
     variance of the record, then the principal spectra of the scatter. The expected squared coefficient of variation of
     a point's variance from period to period, were the record Gaussian and stationary, is
@@ -51,7 +52,7 @@ class PeriodMatrices:
     """
 
     rms: NDArray[np.float64]
-    forms: NDArray[np.float32]
+    forms: NDArray[np.float64]
     periods: int
     period_s: float
     segments: int
@@ -111,8 +112,7 @@ def period_matrices(history: ModalHistory, spectra: Spectra, variances: NDArray[
     known = np.concatenate([variances[:, first, second], mean[None]]) * unit
     scatter = principal_scatter(long, density, scale, taper)
     scatter /= np.sqrt(1 + period_s / history.duration)  # the autocovariances have their own scatter, which adds
-    forms = np.concatenate([known.astype(np.float32), scatter.astype(np.float32)])
-    return PeriodMatrices(rms, forms, len(variances), period_s, segments)
+    return PeriodMatrices(rms, np.concatenate([known, scatter]), len(variances), period_s, segments)
 
 
 def segments_per_period(spectra: Spectra) -> int:
@@ -131,7 +131,8 @@ def stationarity(modal_stress: NDArray[np.float64], periods: PeriodMatrices) -> 
 
     ``modal_stress`` is (n, m) [MPa per unit modal coordinate].
     """
-    forms = pair_forms(_squarable(modal_stress * periods.rms), periods.forms).astype(np.float64)
+    forms = _forms(_squarable(modal_stress * periods.rms), periods)
+    forms[: periods.periods + 1] = np.maximum(forms[: periods.periods + 1], 0.0)  # rounding may leave less
     variance, mean = forms[: periods.periods], forms[periods.periods]
     scatter = np.sqrt(np.sum(forms[periods.periods + 1 :] ** 2, axis=0))
     expected_cov = quotient(scatter, mean)
@@ -171,6 +172,15 @@ def damage_rate_by_period(
     """
     rates = [damage_rate(point_moments(modal_stress, m)) for m in moments_by_period(spectra, (0.0, 1.0, 2.0, 4.0))]
     return np.asarray(np.mean(rates, axis=0))
+
+
+def _forms(modal_stress: NDArray[np.float64], periods: PeriodMatrices) -> NDArray[np.float64]:
+    """Forms (periods + 1 + r, n) in single precision, but for points whose modes cancel."""
+    forms = pair_forms(modal_stress, periods.forms.astype(np.float32)).astype(np.float64)
+    cancelled = np.flatnonzero(forms[periods.periods] < CANCELLED * np.sum(modal_stress**2, axis=1))
+    if cancelled.size:
+        forms[:, cancelled] = pair_forms(modal_stress[cancelled], periods.forms)
+    return forms
 
 
 def _squarable(modal_stress: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -192,3 +192,15 @@ def test_stresses_whose_squares_single_precision_cannot_hold(exponent):
     usual, huge = (stationarity(modal_stress * factor, periods) for factor in (1.0, 2.0**exponent))
     assert np.isfinite(usual.modulation_index).all()
     assert usual.modulation_index.tolist() == huge.modulation_index.tolist()
+
+
+@pytest.mark.parametrize("cancels", [1e2, 1e5, 1e8, 1e12])
+def test_points_whose_modes_cancel(cancels):
+    """What two opposite modes leave of a large common motion is judged as if it came alone, as far as it is known."""
+    common, *own = ensemble(modal_spectrum(), 3, 29 * 512, 11)
+    opposite = prepared(np.stack([cancels * common + own[0], cancels * common + own[1]]))[2]
+    found = stationarity(np.array([[1.0, -1.0]]), opposite)
+    expected = stationarity(np.ones((1, 1)), prepared((own[0] - own[1])[None])[2])
+    assert (found.relative_variance >= 0.0).all()
+    if cancels <= 1e5:  # variances are 1e10 times what is left of them: six of their digits
+        np.testing.assert_allclose(found.relative_variance, expected.relative_variance, rtol=1e-4)

@@ -13,8 +13,9 @@ product. Three steps follow per point and surface:
 
 Where single precision cannot tell which of two neighbouring samples is the extreme, or which of two ranges is the
 larger one, double precision does in that chunk, see ``kernels.doubt``. The few surfaces of which that is not enough are
-counted again in the same way in double precision, all of a call together. Points in high mean tension, laws with knees,
-and short records go to ``count_chunks``. ``kernels.over_time`` loops over time, ``kernels.loops`` and ``kernels.power``
+counted again in the same way in double precision, all of a call together. Points in high mean tension, those whose
+modes cancel so far that powers of what is left leave the exponents of single precision, laws with knees, and short
+records go to ``count_chunks``. ``kernels.over_time`` loops over time, ``kernels.loops`` and ``kernels.power``
 over samples; ``kernels.simd`` has steps 1 and 2 in vector instructions, and without that file the plain loops do the
 same, bit for bit.
 
@@ -50,6 +51,7 @@ KEPT = 128  # reversals of the residue of a pass, some ten as a rule
 SHORTEST = 512  # samples of a record; a few cycles do not average rounding errors out
 STEEPEST = 12.0  # slope up to which S^k stays within single precision
 CANCELLATION = 8.0  # modal stresses over their sum from which on single precision is not enough
+SMALLEST = -64.0  # exponent of S^k of the largest range, over the modal stress; what ``kernels.power`` has ends at -126
 FLAT = 4e-8  # doubt about a difference of stresses of rms 1, per root of the number of modes: 3 standard deviations
 
 
@@ -121,7 +123,7 @@ def _counted(stress: BlockStress, record: CountedRecord, rule: CycleRule, kept: 
         found[doubtful] = again[wanted]
         residue = residue.replaced(doubtful, _residue_of(state, some, np.zeros_like(some.mean_parts)), wanted)
     count = _evaluated(found, block, stress, record.q.shape[1], rule)
-    unsuited, tense = found["crowded"], np.zeros((len(stress), 2), np.bool_)
+    unsuited, tense = found["crowded"] | _vanishes(found, law), np.zeros((len(stress), 2), np.bool_)
     if rule.yield_MPa is not None:  # f_M is 1 where no cycle reaches this tension
         count = replace(count, damage_mean_stress=count.damage.copy())
         highest = block.mean + block.scale * found["maximum"]
@@ -147,6 +149,12 @@ def _counted(stress: BlockStress, record: CountedRecord, rule: CycleRule, kept: 
         factor = np.divide(exact.damage_mean_stress, exact.damage, out=np.ones_like(exact.damage), where=counted)
         count.damage_mean_stress[rows] *= factor
     return count, residue
+
+
+def _vanishes(found: NDArray[np.void], law: PowerLaw) -> NDArray[np.bool_]:
+    """Whether modes cancel so far that S^k of the largest range (n, 2) is near the smallest number of ``power``."""
+    largest = found["maximum"] - found["minimum"]
+    return np.asarray((largest > 0.0) & (law.slope * np.log2(np.where(largest > 0.0, largest, 1.0)) < SMALLEST))
 
 
 def _residue_of(state: State, block: _Normalised, mean: Floats) -> BlockResidue:
