@@ -49,9 +49,10 @@ def unroll(s: Floats, path: Floats) -> int:
         if s[following] != s[first]:
             break
         first = following
-    path[: t - first] = s[first:]
-    path[t - first : t] = s[:first]
-    path[t] = s[first]
+    for i in range(t - first):  # loops: a slice that is assigned compiles the text of its refusal too
+        path[i] = s[first + i]
+    for i in range(first + 1):
+        path[t - first + i] = s[i]
     return first
 
 
