@@ -93,4 +93,4 @@ def count_at_factors(
 
 
 def _is_long(record: CountedRecord) -> bool:
-    return record.q.shape[1] > LONGEST_ROW
+    return int(record.q.shape[1]) > LONGEST_ROW
