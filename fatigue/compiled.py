@@ -25,9 +25,11 @@ def compiled(*fastmath: str) -> Callable[[Callable[P, R]], Callable[P, R]]:
 
     ``fastmath`` are flags of LLVM. Where no folder can be written to, every process compiles anew.
     """
+    flags: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": set(fastmath)}
+    flags["no_cfunc_wrapper"] = True  # nobody calls the loops from C
 
     def compile_lazily(function: Callable[P, R]) -> Callable[P, R]:
-        loops: Any = njit(nogil=True, error_model="numpy", fastmath=set(fastmath))(function)
+        loops: Any = njit(**flags)(function)
         with suppress(RuntimeError, AttributeError):  # no such folder; plain Python, with NUMBA_DISABLE_JIT
             loops.enable_caching()
             loops._cache.save_overload = _unless_refused(loops._cache.save_overload)

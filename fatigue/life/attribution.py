@@ -24,7 +24,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.life.counting.rainflow import Cycles
-from fatigue.life.counting.tally import lay_halves
 from fatigue.life.counting.vertex import spread
 from fatigue.life.rule import (
     CycleRule,
@@ -161,7 +160,8 @@ def credit(
     if shift is not None:
         share, by_membrane, by_bending = (spread(laid, shift) for laid in (share, by_membrane, by_bending))
     place = np.zeros(samples)
-    lay_halves(start, end, of.damage, len(start), samples, place)
+    for at in (start, end):
+        place += np.bincount(at, 0.5 * of.damage, samples)
     return Credit(
         damage=float(of.damage.sum()),
         top_cycle=float(of.damage.max(initial=0.0)),

@@ -13,6 +13,7 @@ often as it occurs, and so on: sorted pairs cross every interval of stress at le
 these reversals, so their damage is no lower for a damage d_1 that is convex.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple, Self
 
@@ -20,15 +21,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.compiled import compiled
-from fatigue.life.counting.factors import Trials, no_trials, tally_trials, trials
+from fatigue.life.counting.block import BlockStress
+from fatigue.life.counting.factors import add_trials, trials
 from fatigue.life.counting.residue import BlockResidue
-from fatigue.life.counting.reversals import Buffers, buffers_for, find_cycles
-from fatigue.life.counting.tally import CompiledRule, Surface, compiled_rule, nothing_counted, plain, tally
+from fatigue.life.counting.reversals import find_cycles
+from fatigue.life.counting.tally import SurfaceCycles, nothing_counted, plain, tally
 from fatigue.life.curves import DamageLaw
 from fatigue.life.rule import M_SS, CycleRule, equivalent_range
 
 Floats = NDArray[np.float64]
 Counts = NDArray[np.int64]
+Indices = NDArray[np.intp]
+
+AT_ONCE = 4096  # points whose cycles are listed at a time
 
 _DIFFERENCES = ("damage", "damage_mean_stress", "cycles", "power_sum")
 
@@ -49,7 +54,7 @@ class Residues(NamedTuple):
     constant_b: Floats
     half: NDArray[np.bool_]
 
-    def at(self, rows: NDArray[np.intp]) -> Self:
+    def at(self, rows: slice | NDArray[np.intp]) -> Self:
         """Take some points."""
         of_points = {name: getattr(self, name)[:, rows] for name in ("first", "length", "constant_m", "constant_b")}
         return self._replace(**of_points)
@@ -92,19 +97,22 @@ def residues_of(
 
 def count_loop(residues: Residues, order: tuple[int, ...], size: Floats, rule: CycleRule) -> LoopCount:
     """Count one run of a loop at n points of the thickness factors ``size`` (n,); ``order`` has numbers of events."""
-    n = len(size)
-    closing, replaced = (nothing_counted(n, rule.law) for _ in range(2))
-    _count(residues, order, size, rule, (*closing, *replaced, no_trials(n)))
-    difference = {name: closing[0][name] - replaced[0][name] for name in _DIFFERENCES}
+    closing, replaced = (nothing_counted(len(size), rule.law) for _ in range(2))
+    for some, of_some in _some_points(residues):
+        stress = _sized(size[some])
+        tally(_cycles(of_some, order, recurs=True), stress, rule, closing.at(some), samples=1)
+        for event in order:
+            own = _cycles(of_some, (event,), recurs=not of_some.half[event])
+            tally(own, stress, rule, replaced.at(some), samples=1)
+    difference = {name: closing.totals[name] - replaced.totals[name] for name in _DIFFERENCES}
     if rule.yield_MPa is None:
-        difference["damage_mean_stress"] = np.full((n, 2), np.nan)
-    r_largest = np.where(closing[0]["max_range"] > 0.0, closing[0]["r_largest"], np.nan)
+        difference["damage_mean_stress"] = np.full((len(size), 2), np.nan)
     return LoopCount(
         **difference,
-        max_range=closing[0]["max_range"].copy(),
-        r_largest=r_largest,
-        max_equivalent_range=closing[0]["max_equivalent_range"].copy(),
-        histogram=closing[1] - replaced[1],
+        max_range=closing.totals["max_range"].copy(),
+        r_largest=closing.totals["r_largest"].copy(),
+        max_equivalent_range=closing.totals["max_equivalent_range"].copy(),
+        histogram=closing.histogram - replaced.histogram,
     )
 
 
@@ -116,46 +124,57 @@ def loop_at_factors(
     As in ``count.count_at_factors``. What replaces cycles of an event is the negative of what that event has.
     """
     tried = trials(first, step, factors)
-    nothing = nothing_counted(len(size), rule.law)
-    _count(residues, order, size, rule, (*nothing, *nothing, tried))
+    for some, of_some in _some_points(residues):
+        stress = _sized(size[some])
+        add_trials(_cycles(of_some, order, recurs=True), stress, rule, tried.at(some))
+        for event in order:
+            own = _cycles(of_some, (event,), recurs=not of_some.half[event])
+            add_trials(own._replace(weight=-own.weight), stress, rule, tried.at(some))
     return tried.damage
 
 
-class _Totals(NamedTuple):
-    """What is counted: the cycles that close, those they replace, or all of them under factors."""
+def _some_points(residues: Residues) -> Iterator[tuple[slice, Residues]]:
+    """Some points at a time."""
+    for first in range(0, residues.length.shape[1], AT_ONCE):
+        some = slice(first, first + AT_ONCE)
+        yield some, residues.at(some)
 
-    closing: NDArray[np.void]
-    closing_histogram: Floats
-    replaced: NDArray[np.void]
-    replaced_histogram: Floats
-    trials: Trials
+
+def _sized(size: Floats) -> BlockStress:
+    """Points of some thickness factors, with nothing else of their own."""
+    n = len(size)
+    return BlockStress(np.zeros((n, 0)), np.zeros((n, 0)), size, np.zeros((n, 2)))
 
 
 class _Path(NamedTuple):
-    """Work space: stresses along a chain of reversals."""
+    """Work space: stresses along a chain of reversals, and its cycles as ``find_cycles`` gives them."""
 
     membrane: Floats
     bending: Floats
     stress: Floats
-    buffers: Buffers
+    turned: Floats
+    step: NDArray[np.int8]
+    reversal: Indices
+    start: Indices
+    end: Indices
+    weight: Floats
+    number: Indices
 
 
 def _path_for(residues: Residues, order: tuple[int, ...]) -> _Path:
     longest = int(residues.length[list(order)].sum(axis=0).max(initial=1))
-    m, b, s = (np.empty(longest) for _ in range(3))
-    return _Path(m, b, s, buffers_for(longest))
+    m, b, s, turned, weight = (np.empty(longest + 1) for _ in range(5))
+    reversal, start, end = (np.empty(longest + 2, np.intp) for _ in range(3))
+    return _Path(m, b, s, turned, np.empty(longest + 1, np.int8), reversal, start, end, weight, np.empty(1, np.intp))
 
 
-def _count(
-    residues: Residues,
-    order: tuple[int, ...],
-    size: Floats,
-    rule: CycleRule,
-    counted: tuple[NDArray[np.void], Floats, NDArray[np.void], Floats, Trials],
-) -> None:
-    if len(size):
-        path = _path_for(residues, order)
-        count_stints(_plain(residues), np.array(order), plain(size), compiled_rule(rule), _Totals(*counted), path)
+def _cycles(residues: Residues, order: tuple[int, ...], *, recurs: bool) -> SurfaceCycles:
+    """Cycles of the chain of the residues of some events, at both surfaces of all points."""
+    most = int(residues.length[list(order)].sum()) + 2 * residues.length.shape[1]
+    values, at = (np.empty((2, most)), np.empty((2, most))), np.empty((2, most), np.intp)
+    cycles = SurfaceCycles(np.empty(most, np.intp), *values, np.empty(most), at)
+    found = list_cycles(_plain(residues), np.array(order), recurs, _path_for(residues, order), cycles)
+    return SurfaceCycles._make(part[..., :found] for part in cycles)
 
 
 def _plain(residues: Residues) -> Residues:
@@ -177,42 +196,33 @@ def put_stint(residues: Residues, event: int, at: tuple[int, int], n: int, path:
 
 
 @compiled()
-def cycles_of(path: _Path, n: int, recurs: bool) -> int:
-    """Find the cycles of the first n reversals of a path, as if they were samples."""
-    of = path.buffers
-    some = Buffers(of.path[: n + 1], of.step, of.reversal, of.start, of.end, of.weight, of.damage)
-    return find_cycles(path.stress[:n], recurs, some)
-
-
-@compiled()
-def count_stints(
-    residues: Residues, order: Counts, size: Floats, rule: CompiledRule, totals: _Totals, path: _Path
-) -> None:
-    """Count the cycles of a loop, and those of its events that they replace, at all points."""
-    has_trials = totals.trials.damage.shape[2] > 0
-    for row in range(size.size):
-        for surface in range(2):
-            at = (row, surface)
-            side = 1.0 - 2.0 * surface
-            point = Surface(path.membrane, path.bending, side, size[row], 0.0, 1.0, 0.0)
-            n = 0
-            for j in range(order.size):
-                n = put_stint(residues, order[j], at, n, path)
-            cycles = cycles_of(path, n, True)
-            first, step = totals.trials.first[at], totals.trials.step[at]
-            if has_trials:
-                tally_trials(point, first, step, totals.trials.damage[at], rule, path.buffers, cycles)
-            else:
-                tally(point, totals.closing[at], totals.closing_histogram[at], rule, path.buffers, cycles)
-            for j in range(order.size):
-                n = put_stint(residues, order[j], at, 0, path)
-                cycles = cycles_of(path, n, not residues.half[order[j]])
-                if has_trials:
-                    for c in range(cycles):
-                        path.buffers.weight[c] *= -1.0
-                    tally_trials(point, first, step, totals.trials.damage[at], rule, path.buffers, cycles)
-                else:
-                    tally(point, totals.replaced[at], totals.replaced_histogram[at], rule, path.buffers, cycles)
+def list_cycles(residues: Residues, order: Counts, recurs: bool, path: _Path, cycles: SurfaceCycles) -> int:
+    """List the cycles of a chain of residues at all points, as if the reversals were samples; returns how many."""
+    found = 0
+    for surface in range(2 * residues.length.shape[1]):
+        n = 0
+        for j in range(order.size):
+            n = put_stint(residues, order[j], (surface // 2, surface % 2), n, path)
+        signal = path.stress[:n].reshape((1, n))
+        closed = find_cycles(
+            signal,
+            recurs,
+            path.turned[: n + 1],
+            path.step,
+            path.reversal,
+            path.start,
+            path.end,
+            path.weight,
+            path.number,
+        )
+        for c in range(closed):
+            cycles.surface[found], cycles.weight[found] = surface, path.weight[c]
+            i, j = path.start[c], path.end[c]
+            cycles.at[0, found], cycles.at[1, found] = i, j
+            cycles.membrane[0, found], cycles.membrane[1, found] = path.membrane[i], path.membrane[j]
+            cycles.bending[0, found], cycles.bending[1, found] = path.bending[i], path.bending[j]
+            found += 1
+    return found
 
 
 class Convex(NamedTuple):
@@ -251,19 +261,15 @@ def unknown_order(residues: Residues, stints: Floats, size: Floats, rule: CycleR
     found = np.zeros((len(size), 2))
     if not len(size):
         return found
-    order = tuple(range(len(stints)))
-    path, convex = _path_for(residues, order), convex_damage(rule)
-    own, histogram = nothing_counted(1, rule.law)
-    pair_sorted(
-        _plain(residues),
-        plain(stints),
-        plain(size),
-        (compiled_rule(rule), convex),
-        (own[0], histogram[0]),
-        path,
-        found,
-    )
-    return found
+    path, convex = _path_for(residues, tuple(range(len(stints)))), convex_damage(rule)
+    already = np.zeros((len(size), 2))
+    for some, of_some in _some_points(residues):
+        for event, times in enumerate(stints):
+            own = nothing_counted(len(size[some]), rule.law)
+            tally(_cycles(of_some, (event,), recurs=not of_some.half[event]), _sized(size[some]), rule, own, samples=1)
+            already[some] += times * own.totals["damage"]
+    pair_sorted(_plain(residues), plain(stints), plain(size), convex, path, found)
+    return found - already
 
 
 @compiled()
@@ -285,20 +291,16 @@ def pair_sorted(
     residues: Residues,
     stints: Floats,
     size: Floats,
-    rules: tuple[CompiledRule, Convex],
-    own: tuple[NDArray[np.void], Floats],
+    convex: Convex,
     path: _Path,
     found: Floats,
 ) -> None:
-    """Pair peaks and valleys of all events, the highest with the lowest, and take off what the events have already."""
-    rule, convex = rules
-    total, histogram = own
+    """Pair peaks and valleys of all events, the highest with the lowest."""
     room = path.stress.size
     peak, valley, of_peak, of_valley = np.empty(room), np.empty(room), np.empty(room), np.empty(room)
     for row in range(size.size):
         for surface in range(2):
             peaks = valleys = 0
-            already = 0.0
             for event in range(stints.size):
                 n = put_stint(residues, event, (row, surface), 0, path)
                 s = path.stress
@@ -310,11 +312,6 @@ def pair_sorted(
                     if s[i] <= before and s[i] <= behind:
                         valley[valleys], of_valley[valleys] = s[i], stints[event]
                         valleys += 1
-                cycles = cycles_of(path, n, not residues.half[event])
-                point = Surface(path.membrane, path.bending, 1.0 - 2.0 * surface, size[row], 0.0, 1.0, 0.0)
-                total[surface]["damage"] = 0.0
-                tally(point, total[surface], histogram[surface], rule, path.buffers, cycles)
-                already += stints[event] * total[surface]["damage"]
             by_peak, by_valley = np.argsort(-peak[:peaks]), np.argsort(valley[:valleys])
             largest = peak[by_peak[0]] if peaks > 0 else 0.0
             i = j = 0
@@ -326,4 +323,4 @@ def pair_sorted(
                 of_valley[by_valley[j]] -= weight
                 i += int(of_peak[by_peak[i]] <= 0.0)
                 j += int(of_valley[by_valley[j]] <= 0.0)
-            found[row, surface] = pairs - already
+            found[row, surface] = pairs

@@ -24,7 +24,7 @@ one of three counters, all with the same arguments, a ``BlockStress``, a ``Count
 counter      precision laws                 records                             serves
 ============ ========= ==================== =================================== ======================================
 count_single single    one slope, up to 12  512 samples or more, also on disk   large jobs: records prepared for it
-count_rows   double    any                  in memory, up to 250 000 samples    short ones take a sixth less time here
+count_rows   double    any                  up to 250 000 samples               small jobs: little of it is compiled
 count_chunks double    any                  any, also on disk                   all else
 ============ ========= ==================== =================================== ======================================
 

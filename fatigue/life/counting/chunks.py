@@ -16,7 +16,6 @@ its first column, and a block that recurs what follows its first sample. Where t
 ranges of a single pass wait to its end as well, and what waits behind the last chunk is the residue.
 """
 
-import math
 from itertools import pairwise
 from typing import NamedTuple, TypeAlias
 
@@ -25,20 +24,16 @@ from numpy.typing import NDArray
 
 from fatigue.compiled import compiled
 from fatigue.life.counting.block import BlockCount, BlockStress
-from fatigue.life.counting.factors import Trials, no_trials, tally_trials
+from fatigue.life.counting.factors import Trials, add_trials
 from fatigue.life.counting.moments import add_moments, mean_and_kurtosis_of
 from fatigue.life.counting.record import CountedRecord
 from fatigue.life.counting.residue import BlockResidue, residue_places
 from fatigue.life.counting.reversals import Buffers, buffers_for, close_cycles, close_open
 from fatigue.life.counting.tally import (
-    CompiledRule,
-    Surface,
+    Counted,
+    SurfaceCycles,
     block_count,
-    compiled_rule,
-    lay_halves,
-    no_pieces,
     nothing_counted,
-    own_of,
     plain,
     refuse_not_finite,
     tally,
@@ -53,6 +48,7 @@ Three: TypeAlias = tuple[float, float, float]  # a sample between its neighbours
 POINTS = 128  # counted at a time
 CHUNK = 8192  # samples recovered at a time
 WAITING = 64  # reversals of a point there is room for at first
+CYCLES = 65_536  # summed up at a time, and those of one surface in a chunk
 
 
 class _State(NamedTuple):
@@ -79,22 +75,6 @@ class _State(NamedTuple):
     alone: NDArray[np.int64]
     after: Floats
     plateau_at: Indices
-
-
-class _Block(NamedTuple):
-    """What is its own of each point, and what is counted: totals (n, 2) and histogram (n, 2, b, 2); or trials.
-
-    ``pieces`` (n, 2, p): damage in equal pieces of the record.
-    """
-
-    size: Floats
-    same_ratio: Floats
-    shear_factor: Floats
-    offset: Floats
-    totals: NDArray[np.void]
-    histogram: Floats
-    trials: Trials
-    pieces: Floats
 
 
 class _Room(NamedTuple):
@@ -141,10 +121,9 @@ def count_chunks(
     ------
     NumericalError : a stress is not finite
     """
-    counted = nothing_counted(len(stress), rule.law, ranges=pieces is not None)
-    laid = no_pieces(len(stress)) if pieces is None else pieces
-    _count_points(stress, record, rule, (*counted, no_trials(len(stress)), laid), chunk)
-    return block_count(*counted, rule, stress.level)
+    counted = nothing_counted(len(stress), rule.law, pieces)
+    _count_points(stress, record, rule, counted, chunk)
+    return block_count(counted, rule, stress.level)
 
 
 def count_chunks_and_residue(
@@ -152,59 +131,45 @@ def count_chunks_and_residue(
 ) -> tuple[BlockCount, BlockResidue]:
     """Count a block as ``count_chunks`` does, and keep the residue of every point."""
     counted = nothing_counted(len(stress), rule.law)
-    of = (*counted, no_trials(len(stress)), no_pieces(len(stress)))
-    residues = _count_points(stress, record, rule, of, chunk, keeps=True)
-    return block_count(*counted, rule, stress.level), BlockResidue.joined(residues)
+    residues = _count_points(stress, record, rule, counted, chunk, keeps=True)
+    return block_count(counted, rule, stress.level), BlockResidue.joined(residues)
 
 
 def try_chunks(stress: BlockStress, record: CountedRecord, rule: CycleRule, tried: Trials, chunk: int = CHUNK) -> None:
     """Add the damage of one pass of a block under factors on its stress to the trials."""
-    of = (*nothing_counted(len(stress), rule.law), tried, no_pieces(len(stress)))
-    _count_points(stress, record, rule, of, chunk)
+    _count_points(stress, record, rule, tried, chunk)
 
 
 def _count_points(
     stress: BlockStress,
     record: CountedRecord,
     rule: CycleRule,
-    counted: tuple[NDArray[np.void], Floats, Trials, Floats],
+    counted: Counted | Trials,
     chunk: int,
     *,
     keeps: bool = False,
 ) -> list[BlockResidue]:
     """Count a block some points at a time; returns their residues where they are to be kept."""
-    totals, histogram, trials, pieces = counted
-    shear_factor, offset = own_of(stress)
     residues = []
     for first in range(0, len(stress), POINTS):
         some = slice(first, first + POINTS)
-        own = plain(stress.size)[some], plain(stress.same_ratio)[some], shear_factor[some], offset[some]
-        block = _Block(*own, totals[some], histogram[some], Trials(*(part[some] for part in trials)), pieces[some])
-        parts = plain(stress.membrane)[some], plain(stress.bending)[some]
-        state = _count(*parts, record, block, compiled_rule(rule), chunk, keeps=keeps)
+        state = _count(stress.at(some), record, rule, counted.at(some), chunk, keeps=keeps)
         if keeps:
             residues.append(BlockResidue.of_padded(state.m, state.b, state.waiting))
     return residues
 
 
 def _count(
-    S_m: Floats,
-    S_b: Floats,
-    record: CountedRecord,
-    block: _Block,
-    rule: CompiledRule,
-    chunk: int,
-    *,
-    keeps: bool,
+    some: BlockStress, record: CountedRecord, rule: CycleRule, counted: Counted | Trials, chunk: int, *, keeps: bool
 ) -> _State:
     """Count some points, chunk by chunk; returns the state behind the last one."""
-    modal_stress = np.concatenate([S_m, S_b])
-    points, t = len(S_m), record.q.shape[1]
+    modal_stress = np.concatenate([plain(some.membrane), plain(some.bending)])
+    points, t = len(some), record.q.shape[1]
     edges = np.linspace(0, t, -(-t // chunk) + 1).astype(int).tolist()
     width = max((end - first for first, end in pairwise(edges)), default=0)
     stress = np.zeros((2 * points, width + 2))  # between the last sample before and, at the end, the first of all
     state = _fresh_state(points)
-    room = _room_for(width + 1, WAITING)
+    room, listed, found = _room_for(width + 1, WAITING), _list_of(CYCLES + 2 * width), np.zeros(1, np.intp)
     for first, end in pairwise(edges):
         samples, ends = end - first, end == t
         recovered = stress[:, 1 : samples + 1]
@@ -217,19 +182,46 @@ def _count(
             stress[:, samples + 1] = state.first.T.ravel()
         steps = samples + int(ends and record.recurs)
         stage = _Stage(first - 1, t, samples, ends, record.recurs, steps, keeps, record.vertex)
-        at = count_chunk(stress, stage, 0, state, block, rule, room)
-        while at < 2 * points:  # more reversals wait than there is room for
+        at = count_chunk(stress, stage, 0, state, room, listed, found)
+        while at < 2 * points:  # more cycles are found, or more reversals wait, than there is room for
+            _sum_up(listed, found, some, rule, counted, t)
             left, room_before = int(state.waiting.ravel()[at]), room
-            state = _grown(state, 2 * left)
-            room = _room_for(width + 1, 2 * left)
-            for rows, kept in ((state.m, room_before.m), (state.b, room_before.b), (state.at, room_before.at)):
-                rows.reshape(2 * points, -1)[at, :left] = kept[:left]
-            at = count_chunk(stress, stage, at + 1, state, block, rule, room)
+            if left > state.m.shape[2]:
+                state = _grown(state, 2 * left)
+                room, listed = _room_for(width + 1, 2 * left), _list_of(CYCLES + 2 * width + 4 * left)
+                for rows, kept in ((state.m, room_before.m), (state.b, room_before.b), (state.at, room_before.at)):
+                    rows.reshape(2 * points, -1)[at, :left] = kept[:left]
+                at += 1
+            at = count_chunk(stress, stage, at, state, room, listed, found)
+        _sum_up(listed, found, some, rule, counted, t)
         state.earlier[:] = stress[:, samples - 1].reshape(2, points).T
         stress[:, 0] = stress[:, samples]
-    block.totals["mean"], block.totals["kurtosis"] = mean_and_kurtosis_of(state.moments, t)
-    block.totals["r_largest"][block.totals["max_range"] == 0.0] = math.nan
+    if isinstance(counted, Counted):
+        counted.totals["mean"], counted.totals["kurtosis"] = mean_and_kurtosis_of(state.moments, t)
     return state
+
+
+def _list_of(cycles: int) -> SurfaceCycles:
+    """Room for so many cycles."""
+    membrane, bending = np.empty((2, cycles)), np.empty((2, cycles))
+    return SurfaceCycles(np.empty(cycles, np.intp), membrane, bending, np.empty(cycles), np.empty((2, cycles), np.intp))
+
+
+def _sum_up(
+    listed: SurfaceCycles,
+    found: Indices,
+    some: BlockStress,
+    rule: CycleRule,
+    counted: Counted | Trials,
+    samples: int,
+) -> None:
+    """Sum up the cycles found so far, and forget them."""
+    cycles = SurfaceCycles._make(values[..., : found[0]] for values in listed)
+    found[0] = 0
+    if isinstance(counted, Counted):
+        tally(cycles, some, rule, counted, samples)
+    else:
+        add_trials(cycles, some, rule, counted)
 
 
 def _fresh_state(points: int) -> _State:
@@ -326,7 +318,8 @@ def close_all(n: int, recurs: bool, room: _Room) -> int:
         n += 1
     for k in range(n):
         room.buffers.reversal[k] = k
-    return close_cycles(room.s, n, recurs, room.buffers)
+    of = room.buffers
+    return close_cycles(room.s, n, recurs, of.reversal, of.start, of.end, of.weight, 0)
 
 
 @compiled()
@@ -390,26 +383,32 @@ def keep_residue(m: Floats, b: Floats, at: tuple[int, int], n: int, stage: _Stag
 
 
 @compiled()
-def lay_pieces(room: _Room, cycles: int, stage: _Stage, pieces: Floats) -> None:
-    """Add the damage of the cycles to the pieces of the record in which they turn, where that is wanted."""
-    if pieces.size > 0:
-        start, end = room.buffers.start, room.buffers.end
-        for c in range(cycles):
-            start[c], end[c] = room.at[start[c]], room.at[end[c]]
-        lay_halves(start, end, room.buffers.damage, cycles, stage.record, pieces)
+def put_cycles(number: int, cycles: int, room: _Room, listed: SurfaceCycles, found: Indices) -> None:
+    """Put the cycles of a surface behind those found so far."""
+    start, end, weight = room.buffers.start, room.buffers.end, room.buffers.weight
+    for c in range(cycles):
+        k, i, j = found[0] + c, start[c], end[c]
+        listed.surface[k], listed.weight[k] = number, weight[c]
+        listed.membrane[0, k], listed.membrane[1, k] = room.m[i], room.m[j]
+        listed.bending[0, k], listed.bending[1, k] = room.b[i], room.b[j]
+        listed.at[0, k], listed.at[1, k] = room.at[i], room.at[j]
+    found[0] += cycles
 
 
 @compiled()
 def count_chunk(
-    stress: Floats, stage: _Stage, first: int, state: _State, block: _Block, rule: CompiledRule, room: _Room
+    stress: Floats, stage: _Stage, first: int, state: _State, room: _Room, listed: SurfaceCycles, found: Indices
 ) -> int:
     """Count the steps between the first columns of a block, its membrane rows above its bending rows.
 
-    Begins with one surface of one point, ``first = 2 * row + surface``, and stops where there is no room for the
-    reversals that wait, with these at the front of ``room``. Returns where it stopped.
+    Begins with one surface of one point, ``first = 2 * row + surface``. Cycles are listed behind the ``found`` (1,) of
+    them. Stops before a surface for whose cycles there may be no room, or behind one for whose waiting reversals there
+    is none, with these at the front of ``room``. Returns where it stopped.
     """
     points = stress.shape[0] // 2
     for number in range(first, 2 * points):
+        if found[0] + state.waiting[number // 2, number % 2] + stage.steps + 4 > listed.weight.size:
+            return number
         row, surface = number // 2, number % 2
         m, b, side = stress[row], stress[points + row], 1.0 - 2.0 * surface
         for i in range(stage.steps + 1):
@@ -423,14 +422,7 @@ def count_chunk(
         else:
             waits = stage.recurs or stage.keeps
             cycles, left = close_open(room.s, state.waiting[row, surface], n, waits, room.buffers)
-        own = block.size[row], block.same_ratio[row, surface], block.shear_factor[row, surface]
-        point = Surface(room.m, room.b, side, own[0], own[1], own[2], block.offset[row, surface])
-        if block.trials.damage.shape[2] > 0:
-            at_first, step = block.trials.first[row, surface], block.trials.step[row, surface]
-            tally_trials(point, at_first, step, block.trials.damage[row, surface], rule, room.buffers, cycles)
-        else:
-            tally(point, block.totals[row, surface], block.histogram[row, surface], rule, room.buffers, cycles)
-        lay_pieces(room, cycles, stage, block.pieces[row, surface])
+        put_cycles(number, cycles, room, listed, found)
 
         state.waiting[row, surface] = left
         for k in range(left):

@@ -10,7 +10,6 @@ from fatigue.life.counting.record import CountedRecord
 from fatigue.life.counting.residue import BlockResidue
 from fatigue.life.counting.rows import count_rows, count_rows_and_residue, try_rows
 from fatigue.life.counting.single.count import count_single, count_single_and_residue, is_single
-from fatigue.life.records.spool import Spool
 from fatigue.life.rule import CycleRule
 
 LONGEST_ROW = 250_000  # samples of a record of which 16 rows at a time are worth a matrix product
@@ -94,4 +93,4 @@ def count_at_factors(
 
 
 def _is_long(record: CountedRecord) -> bool:
-    return isinstance(record.q, Spool) or record.q.shape[1] > LONGEST_ROW
+    return int(record.q.shape[1]) > LONGEST_ROW

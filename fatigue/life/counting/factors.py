@@ -21,38 +21,32 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.compiled import compiled
-from fatigue.life.counting.reversals import Buffers
-from fatigue.life.counting.tally import (
-    CompiledRule,
-    Surface,
-    bending_factor,
-    factor_of_stress_ratio,
-    stress_ratio_factor,
-)
+from fatigue.life.counting.block import BlockStress
+from fatigue.life.counting.tally import SurfaceCycles, cycle_stress, plain
+from fatigue.life.rule import CycleRule, factor_of_stress_ratio
 
 Floats = NDArray[np.float64]
+Indices = NDArray[np.intp]
 
 
 class Trials(NamedTuple):
     """Factors ``first exp(i step)`` on all stresses of some points and their damage.
 
-    ``first`` and ``step`` (n, 2) of top and bottom surface, 0: not wanted; ``damage`` (n, 2, g) at the g factors; for
-    g = 0 the stresses are counted as they are.
+    ``first`` and ``step`` (n, 2) of top and bottom surface, 0: not wanted; ``damage`` (n, 2, g) at the g factors.
     """
 
     first: Floats
     step: Floats
     damage: Floats
 
+    def at(self, some: slice) -> "Trials":
+        """Take some points."""
+        return Trials(self.first[some], self.step[some], self.damage[some])
+
 
 def trials(first: Floats, step: Floats, factors: int) -> Trials:
     """So many factors from ``first`` on (n, 2), nothing counted yet."""
     return Trials(np.ascontiguousarray(first), np.ascontiguousarray(step), np.zeros((*first.shape, factors)))
-
-
-def no_trials(points: int) -> Trials:
-    """None: for counting as the stresses are."""
-    return trials(np.zeros((points, 2)), np.zeros((points, 2)), 0)
 
 
 @compiled()
@@ -72,14 +66,35 @@ def first_at_least(x: float, factors: Floats, bound: float, begin: int) -> int:
     return low
 
 
+def add_trials(cycles: SurfaceCycles, stress: BlockStress, rule: CycleRule, tried: Trials) -> None:
+    """Add cycles to the damage of their points, of which ``stress`` and ``tried`` are, under each factor."""
+    first = tried.first.reshape(-1)[cycles.surface]
+    with np.errstate(divide="ignore", over="ignore", invalid="ignore"):  # of ranges that are 0, or infinite
+        of = cycle_stress(cycles, stress, rule, first)
+        f_M = factor_of_stress_ratio(np.where(of.minimum > 0.0, of.minimum / of.maximum, 0.0))
+    surfaces, factors = tried.damage.shape[0] * 2, tried.damage.shape[2]
+    begin = np.searchsorted(cycles.surface, np.arange(surfaces + 1))
+    limit = float(rule.yield_MPa) if rule.mean_stress and rule.yield_MPa is not None else math.inf
+    law = rule.law
+    curve = plain(law.slopes), plain(law.log_constants), plain(law.knees), float(law.cutoff)
+    work = np.empty(factors), np.empty((len(law.slopes), factors)), np.empty(len(law.slopes))
+    step, damage = tried.step.reshape(-1), tried.damage.reshape(surfaces, factors)
+    sizes = cycles.weight, of.range, of.minimum, of.maximum, of.equivalent, f_M
+    tally_trials(begin, sizes, step, limit, *curve, *work, damage)
+
+
 @compiled()
 def add_stretch(
     n: float,
     x: float,
-    stretch: tuple[int, int],
+    begin: int,
+    end: int,
     factors: Floats,
     powers: Floats,
-    rule: CompiledRule,
+    slopes: Floats,
+    log_constants: Floats,
+    knees: Floats,
+    cutoff: float,
     damage: Floats,
     whole: Floats,
 ) -> None:
@@ -87,12 +102,11 @@ def add_stretch(
 
     ``whole`` (s,) sums up, for each segment, cycles that stay on it under all factors: most of them.
     """
-    at, end = max(stretch[0], first_at_least(x, factors, rule.cutoff, stretch[0])), stretch[1]
-    last = rule.slopes.size - 1
-    for j in range(last, -1, -1):
-        leaves = end if j == 0 else min(end, first_at_least(x, factors, rule.knees[j - 1], at))
+    at = max(begin, first_at_least(x, factors, cutoff, begin))
+    for j in range(slopes.size - 1, -1, -1):
+        leaves = end if j == 0 else min(end, first_at_least(x, factors, knees[j - 1], at))
         if at < leaves:
-            of_one = n * math.exp(rule.slopes[j] * math.log(x) - rule.log_constants[j])
+            of_one = n * math.exp(slopes[j] * math.log(x) - log_constants[j])
             if leaves - at == factors.size:
                 whole[j] += of_one
             else:
@@ -103,42 +117,50 @@ def add_stretch(
 
 @compiled()
 def tally_trials(
-    point: Surface, first: float, step: float, damage: Floats, rule: CompiledRule, buffers: Buffers, cycles: int
+    begin: Indices,
+    sizes: tuple[Floats, ...],
+    step: Floats,
+    yield_MPa: float,
+    slopes: Floats,
+    log_constants: Floats,
+    knees: Floats,
+    cutoff: float,
+    factors: Floats,
+    powers: Floats,
+    whole: Floats,
+    damage: Floats,
 ) -> None:
-    """Add cycles of one point and surface to its damage under each factor; see ``tally`` for the formulas."""
-    if first == 0.0:
-        return
-    membrane, bending, side = point.membrane, point.bending, point.side
-    every = damage.size
-    factors, powers = np.empty(every), np.empty((rule.slopes.size, every))  # over ``first``, which is in the stresses
-    for i in range(every):
-        factors[i] = math.exp(i * step)
-        for j in range(rule.slopes.size):
-            powers[j, i] = math.exp(rule.slopes[j] * i * step)
-    whole = np.zeros(rule.slopes.size)
-    for c in range(cycles):
-        i, j, n = buffers.start[c], buffers.end[c], buffers.weight[c]
-        s_i, s_j = first * (membrane[i] + side * bending[i]), first * (membrane[j] + side * bending[j])
-        S = max(s_i, s_j) - min(s_i, s_j)
-        minimum, maximum = min(s_i, s_j) + first * point.offset, max(s_i, s_j) + first * point.offset
-        if S == 0.0:
+    """Add cycles to the damage (s, g) of each surface under the factors; see ``tally`` for the formulas.
+
+    Those of a surface lie between ``begin`` (s + 1,); ``sizes`` are weight, range, least and largest stress, equivalent
+    range and f_M of each. ``factors``, ``powers`` and ``whole`` are work space.
+    """
+    weight, S, minimum, maximum, equivalent, f_M = sizes
+    every = damage.shape[1]
+    for surface in range(begin.size - 1):
+        if begin[surface] == begin[surface + 1]:
             continue
-        dm, db = abs(membrane[j] - membrane[i]), abs(bending[j] - bending[i])
-        x = S * point.size / bending_factor(db / (dm + db), rule.uses_bending_ratio, rule.allows_for_bending)
-        if rule.ratio_level > 0.0:
-            x /= stress_ratio_factor(minimum, maximum, rule.ratio_level)
-        begins = ends = every
-        if rule.mean_stress and minimum > 0.0:
-            begins = first_at_least(minimum + maximum, factors, rule.yield_MPa, 0)
-            ends = first_at_least(S, factors, np.nextafter(2.0 * rule.yield_MPa, math.inf), 0)
-            ends = min(ends + 1, every) if ends > 0 else 0
-        if begins >= ends:
-            add_stretch(n, x, (0, every), factors, powers, rule, damage, whole)
-            continue
-        f_M = factor_of_stress_ratio(minimum / maximum)
-        add_stretch(n, x, (0, begins), factors, powers, rule, damage, whole)
-        add_stretch(n, x / f_M, (begins, ends), factors, powers, rule, damage, whole)
-        add_stretch(n, x, (ends, every), factors, powers, rule, damage, whole)
-    for j in range(rule.slopes.size):
-        for i in range(every):
-            damage[i] += whole[j] * powers[j, i]
+        for i in range(every):  # over the first factor, which is in the stresses
+            factors[i] = math.exp(i * step[surface])
+            for j in range(slopes.size):
+                powers[j, i] = math.exp(slopes[j] * i * step[surface])
+        for j in range(slopes.size):
+            whole[j] = 0.0
+        for c in range(begin[surface], begin[surface + 1]):
+            n, x = weight[c], equivalent[c]
+            if S[c] == 0.0:
+                continue
+            begins = ends = every
+            if minimum[c] > 0.0 and yield_MPa < math.inf:
+                begins = first_at_least(minimum[c] + maximum[c], factors, yield_MPa, 0)
+                ends = first_at_least(S[c], factors, np.nextafter(2.0 * yield_MPa, math.inf), 0)
+                ends = min(ends + 1, every) if ends > 0 else 0
+            curve = factors, powers, slopes, log_constants, knees, cutoff, damage[surface], whole
+            if begins >= ends:
+                begins = ends = every
+            add_stretch(n, x, 0, begins, *curve)
+            add_stretch(n, x / f_M[c], begins, ends, *curve)
+            add_stretch(n, x, ends, every, *curve)
+        for j in range(slopes.size):
+            for i in range(every):
+                damage[surface, i] += whole[j] * powers[j, i]

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from fatigue.life.counting.reversals import buffers_for, find_cycles
+from fatigue.life.counting.reversals import cycles_of
 from fatigue.life.counting.signal import middle, recurs, samples_of
 from fatigue.life.records.history import Residue
 
@@ -53,7 +53,5 @@ def rainflow(signal: ArrayLike, residue: Residue) -> Cycles:
     array([0.5, 0.5, 1. , 0.5, 0.5, 0.5, 0.5])
     """
     block, s = recurs(residue), samples_of(signal)
-    buffers = buffers_for(s.size)
-    cycles = find_cycles(s, block, buffers)
-    start, end = buffers.start[:cycles], buffers.end[:cycles]
-    return Cycles(np.abs(s[end] - s[start]), middle(s[start], s[end]), buffers.weight[:cycles], start, end)
+    start, end, weight, _ = cycles_of(s[None], recurs=block)
+    return Cycles(np.abs(s[end] - s[start]), middle(s[start], s[end]), weight, start, end)

@@ -15,22 +15,19 @@ Indices = NDArray[np.intp]
 
 
 class Buffers(NamedTuple):
-    """Work space for one signal; ``damage`` is that of each cycle, where it is tallied."""
+    """Work space for one signal: its reversals, and its cycles by their places in the signal and their weights."""
 
-    path: Floats
     step: NDArray[np.int8]
     reversal: Indices
     start: Indices
     end: Indices
     weight: Floats
-    damage: Floats
 
 
 def buffers_for(samples: int) -> Buffers:
     """Room for the reversals of a signal whose first sample is repeated at its end."""
     reversal, start, end = (np.empty(samples + 2, np.intp) for _ in range(3))
-    path, weight, damage = (np.empty(samples + 1) for _ in range(3))
-    return Buffers(path, np.empty(samples + 1, np.int8), reversal, start, end, weight, damage)
+    return Buffers(np.empty(samples + 1, np.int8), reversal, start, end, np.empty(samples + 1))
 
 
 @compiled()
@@ -49,9 +46,10 @@ def unroll(s: Floats, path: Floats) -> int:
         if s[following] != s[first]:
             break
         first = following
-    path[: t - first] = s[first:]
-    path[t - first : t] = s[:first]
-    path[t] = s[first]
+    for i in range(t - first):  # loops: a slice that is assigned compiles the text of its refusal too
+        path[i] = s[first + i]
+    for i in range(first + 1):
+        path[t - first + i] = s[i]
     return first
 
 
@@ -75,15 +73,24 @@ def turning_points(s: Floats, step: NDArray[np.int8], reversal: Indices) -> int:
 
 
 @compiled()
-def close_cycles(s: Floats, reversals: int, recurs: bool, buffers: Buffers) -> int:
+def close_cycles(
+    s: Floats,
+    reversals: int,
+    recurs: bool,
+    reversal: Indices,
+    start: Indices,
+    end: Indices,
+    weight: Floats,
+    cycles: int,
+) -> int:
     """Pair the reversals into cycles, in the order in which they close, and return how many (ASTM E1049-85, 5.4.4).
+
+    They are written behind the first ``cycles``, of signals before, and these are among those returned.
 
     The latest range ``X = |s_top - s_(top-1)|`` closes the range ``Y = |s_(top-1) - s_(top-2)|`` before it if X >= Y.
     A Y that contains the starting point is a half cycle, unless the block recurs; what is left at the end is half
     cycles. The open reversals are a stack at the front of ``reversal``.
     """
-    reversal, start, end, weight = buffers.reversal, buffers.start, buffers.end, buffers.weight
-    cycles = 0
     base = 0
     top = -1
     for k in range(reversals):
@@ -146,14 +153,56 @@ def close_open(s: Floats, waiting: int, reversals: int, recurs: bool, buffers: B
 
 
 @compiled()
-def find_cycles(s: Floats, recurs: bool, buffers: Buffers) -> int:
-    """Write the cycles of s into ``start``, ``end`` and ``weight`` of the buffers and return how many there are."""
-    if not recurs or s.size == 0:
-        return close_cycles(s, turning_points(s, buffers.step, buffers.reversal), False, buffers)
-    path = buffers.path
-    first = unroll(s, path)
-    cycles = close_cycles(path, turning_points(path, buffers.step, buffers.reversal), True, buffers)
-    for c in range(cycles):
-        buffers.start[c] = (buffers.start[c] + first) % s.size
-        buffers.end[c] = (buffers.end[c] + first) % s.size
+def find_cycles(
+    signals: Floats,
+    recurs: bool,
+    path: Floats,
+    step: NDArray[np.int8],
+    reversal: Indices,
+    start: Indices,
+    end: Indices,
+    weight: Floats,
+    number: Indices,
+) -> int:
+    """Write the cycles of signals (n, t), one after the other, and return how many there are.
+
+    ``number`` (n,) gets those of each, ``start``, ``end`` and ``weight`` have room for n (t + 1) of them; ``path``,
+    ``step`` and ``reversal`` are work space.
+    """
+    cycles, t = 0, signals.shape[1]
+    for row in range(signals.shape[0]):
+        s, first, before = signals[row], 0, cycles
+        if recurs and t > 0:
+            first = unroll(s, path)
+            reversals = turning_points(path, step, reversal)
+            cycles = close_cycles(path, reversals, True, reversal, start, end, weight, cycles)
+        else:
+            reversals = turning_points(s, step, reversal)
+            cycles = close_cycles(s, reversals, False, reversal, start, end, weight, cycles)
+        for c in range(before, cycles):
+            start[c], end[c] = (start[c] + first) % t, (end[c] + first) % t
+        number[row] = cycles - before
     return cycles
+
+
+class Found(NamedTuple):
+    """Cycles of some signals, one signal after the other, each in the order in which its cycles close.
+
+    ``start`` and ``end`` (c,) are the samples of their reversals, ``weight`` (c,) is 1 or 0.5; ``number`` (n,) says how
+    many each signal has.
+    """
+
+    start: Indices
+    end: Indices
+    weight: Floats
+    number: Indices
+
+
+def cycles_of(signals: Floats, *, recurs: bool) -> Found:
+    """Cycles of signals (n, t)."""
+    n, t = signals.shape
+    room = n * (t + 1)
+    start, end, number = np.empty(room, np.intp), np.empty(room, np.intp), np.empty(n, np.intp)
+    path, step, reversal, weight = np.empty(t + 1), np.empty(t + 1, np.int8), np.empty(t + 2, np.intp), np.empty(room)
+    found = find_cycles(signals, recurs, path, step, reversal, start, end, weight, number)
+    return Found(start[:found], end[:found], weight[:found], number)

@@ -1,62 +1,37 @@
 """Counting whole rows in double precision, for any law: the plain reading of the standard that all else is tested by.
 
 The reversals of each row are found and paired, and membrane and bending stress at the two instants of every cycle give
-its damage, with the exact ranges. Short records take a sixth less time here than in ``chunks``, long ones a tenth more.
+its damage, with the exact ranges. Only how cycles are found is compiled, so that the first of them are there soon.
 """
 
-import math
 from collections.abc import Iterator, Sequence
 from dataclasses import fields
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.compiled import compiled
 from fatigue.life.counting.block import BlockCount, BlockStress
-from fatigue.life.counting.factors import Trials, no_trials, tally_trials
+from fatigue.life.counting.factors import Trials, add_trials
 from fatigue.life.counting.moments import mean_and_kurtosis
 from fatigue.life.counting.record import CountedRecord
 from fatigue.life.counting.residue import BlockResidue, residue_of_rows
-from fatigue.life.counting.reversals import Buffers, buffers_for, find_cycles
+from fatigue.life.counting.reversals import cycles_of
 from fatigue.life.counting.tally import (
-    CompiledRule,
-    Surface,
+    SurfaceCycles,
     block_count,
-    compiled_rule,
-    lay_halves,
-    no_pieces,
     nothing_counted,
-    own_of,
     plain,
     refuse_not_finite,
     tally,
 )
-from fatigue.life.counting.vertex import move, shifts
+from fatigue.life.counting.vertex import vertex_history
 from fatigue.life.records.history import Residue, stress_history
 from fatigue.life.rule import CycleRule
 
 Floats = NDArray[np.float64]
 
 SAMPLES_AT_ONCE = 4_000_000  # stress samples of one component recovered before they are counted: 32 MB
-
-
-class _Histories(NamedTuple):
-    """Stresses of a block and, per point and surface, what is counted: see ``nothing_counted``; or damage of trials.
-
-    ``pieces`` (n, 2, p): damage in each of p equal pieces of the record, p 0 where it is not wanted.
-    """
-
-    membrane: Floats
-    bending: Floats
-    size: Floats
-    same_ratio: Floats
-    shear_factor: Floats
-    offset: Floats
-    totals: NDArray[np.void]
-    histogram: Floats
-    trials: Trials
-    pieces: Floats
+CACHED = 131_072  # samples of one component counted at a time: they stay in the second-level cache
 
 
 def count_rows(
@@ -93,11 +68,11 @@ def try_rows(stress: BlockStress, record: CountedRecord, rule: CycleRule, tried:
         at = slice(begin, begin + len(some))
         begin += len(some)
         refuse_not_finite(membrane, bending)
-        totals, histogram = nothing_counted(len(membrane), rule.law)
-        of_points = plain(membrane), plain(bending), plain(some.size), plain(some.same_ratio), *own_of(some)
-        trials = Trials(*(part[at] for part in tried))
-        block = _Histories(*of_points, totals, histogram, trials, no_pieces(len(membrane)))
-        _count(block, record.recurs, record.vertex, compiled_rule(rule), buffers_for(membrane.shape[1]))
+        trials = tried.at(at)
+        for rows in _cached(membrane):
+            for face in range(2):
+                found, _ = _cycles(membrane[rows], bending[rows], face, record.recurs, record.vertex)
+                add_trials(found, some.at(rows), rule, trials.at(rows))
 
 
 def _histories(stress: BlockStress, record: CountedRecord) -> Iterator[tuple[BlockStress, tuple[Floats, Floats]]]:
@@ -144,47 +119,34 @@ def _count_some(
     ``how``: whether the record recurs, and whether reversals are read at their vertices. ``pieces``: as
     of ``count_rows``.
     """
-    membrane, bending = histories
+    membrane, bending = (plain(part) for part in histories)
     refuse_not_finite(membrane, bending)
-    totals, histogram = nothing_counted(len(membrane), rule.law, ranges=pieces is not None)
-    of_points = plain(membrane), plain(bending), plain(some.size), plain(some.same_ratio), *own_of(some)
-    laid = no_pieces(len(membrane)) if pieces is None else pieces
-    block = _Histories(*of_points, totals, histogram, no_trials(len(membrane)), laid)
-    _count(block, *how, compiled_rule(rule), buffers_for(membrane.shape[1]))
-    return block_count(totals, histogram, rule, some.level)
+    counted = nothing_counted(len(membrane), rule.law, pieces)
+    for rows in _cached(membrane):
+        of_rows, sums = some.at(rows), counted.at(rows)
+        for face in range(2):
+            found, s = _cycles(membrane[rows], bending[rows], face, *how)
+            sums.totals["mean"][:, face], sums.totals["kurtosis"][:, face] = mean_and_kurtosis(s)
+            tally(found, of_rows, rule, sums, membrane.shape[1])
+    return block_count(counted, rule, some.level)
 
 
-@compiled()
-def _count(block: _Histories, recurs: bool, vertex: bool, rule: CompiledRule, buffers: Buffers) -> None:
-    """Count both surfaces of every row of the block."""
-    s = np.empty(block.membrane.shape[1])
-    room = np.empty((3, s.size if vertex else 0))  # membrane, bending and shifts of a history of vertices
-    for row in range(block.membrane.shape[0]):
-        for surface in range(2):
-            side = 1.0 - 2.0 * surface
-            for i in range(s.size):
-                s[i] = block.membrane[row, i] + side * block.bending[row, i]
-            total, histogram = block.totals[row, surface], block.histogram[row, surface]
-            tries = block.trials.damage.shape[2] > 0
-            if not tries:
-                total["mean"], total["kurtosis"] = mean_and_kurtosis(s)
-            membrane, bending = block.membrane[row], block.bending[row]
-            if vertex:
-                shifts(s, recurs, room[2])
-                move(membrane, room[2], room[0])
-                move(bending, room[2], room[1])
-                membrane, bending = room[0], room[1]
-                for i in range(s.size):
-                    s[i] = membrane[i] + side * bending[i]
-            at = row, surface
-            own = block.size[row], block.same_ratio[at], block.shear_factor[at], block.offset[at]
-            point = Surface(membrane, bending, side, own[0], own[1], own[2], own[3])
-            cycles = find_cycles(s, recurs, buffers)
-            if tries:
-                first, step = block.trials.first[row, surface], block.trials.step[row, surface]
-                tally_trials(point, first, step, block.trials.damage[row, surface], rule, buffers, cycles)
-                continue
-            total["r_largest"] = math.nan
-            tally(point, total, histogram, rule, buffers, cycles)
-            if block.pieces.shape[2] > 0:
-                lay_halves(buffers.start, buffers.end, buffers.damage, cycles, s.size, block.pieces[row, surface])
+def _cached(membrane: Floats) -> Iterator[slice]:
+    """Few rows at a time."""
+    rows = max(1, CACHED // max(1, membrane.shape[1]))
+    for first in range(0, len(membrane), rows):
+        yield slice(first, first + rows)
+
+
+def _cycles(membrane: Floats, bending: Floats, face: int, recurs: bool, vertex: bool) -> tuple[SurfaceCycles, Floats]:
+    """Cycles of one face, 0 top or 1 bottom, of some histories (n, t), and the stress there as it was sampled."""
+    side = 1.0 - 2.0 * face
+    s = sampled = plain(membrane + side * bending)
+    if vertex:
+        moved = [vertex_history(*of_point, side, recurs=recurs) for of_point in zip(membrane, bending, strict=True)]
+        membrane, bending = np.stack([m for m, _, _ in moved]), np.stack([b for _, b, _ in moved])
+        s = membrane + side * bending
+    found = cycles_of(s, recurs=recurs)
+    row = np.repeat(np.arange(len(s)), found.number)
+    at = np.stack([found.start, found.end])
+    return SurfaceCycles(2 * row + face, membrane[row, at], bending[row, at], found.weight, at), sampled

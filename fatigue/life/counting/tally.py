@@ -1,4 +1,4 @@
-"""What is kept of cycles: their damage and what goes with it, summed up for one surface of one point."""
+"""What is kept of cycles: their damage and what goes with it, summed up for each surface of some points."""
 
 import math
 from dataclasses import fields
@@ -7,14 +7,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.compiled import compiled, inlined
-from fatigue.life import allowances
-from fatigue.life import rule as master
 from fatigue.life.counting.block import BINS_PER_DECADE, HISTOGRAM_BINS, BlockCount, BlockStress
-from fatigue.life.counting.reversals import Buffers
 from fatigue.life.counting.signal import not_finite
 from fatigue.life.curves import DamageLaw
-from fatigue.life.rule import CycleRule
+from fatigue.life.rule import CycleRule, bending_ratio, cycle_damage, equivalent_range, mean_stress_factor
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -22,67 +18,68 @@ Indices = NDArray[np.intp]
 _SCALARS = tuple(field.name for field in fields(BlockCount) if field.name != "histogram")
 
 
-class CompiledRule(NamedTuple):
-    """A ``CycleRule`` in a form that compiled code can read, its law among it: see ``compiled_rule``.
+class SurfaceCycles(NamedTuple):
+    """Cycles of surfaces of some points, those of one surface side by side, in the order in which they close.
 
-    ``ratio_level`` is the level of f(R), 0 without it.
+    Attributes
+    ----------
+    surface : (c,) twice the number of the point, and one more for its bottom surface; it does not fall
+    membrane, bending : (2, c) membrane stress, and bending stress of the top surface, at start and end [MPa]
+    weight : (c,) 1 or 0.5
+    at : (2, c) samples of the start and the end
     """
 
-    slopes: Floats
-    log_constants: Floats
-    knees: Floats
-    cutoff: float
-    uses_bending_ratio: bool
-    yield_MPa: float  # noqa: N815
-    mean_stress: bool
-    allows_for_bending: bool
-    ratio_level: float
-
-
-class Surface(NamedTuple):
-    """One surface of one point, ``side`` +1 or -1: its stresses (t,), and what is its own in the damage of a cycle."""
-
+    surface: Indices
     membrane: Floats
     bending: Floats
-    side: float
-    size: float
-    same_ratio: float
-    shear_factor: float
-    offset: float
+    weight: Floats
+    at: Indices
 
 
-def compiled_rule(rule: CycleRule) -> CompiledRule:
-    """Put a rule into the form for compiled code; without a yield stress it is infinite, so that f_M is 1."""
-    law, yield_MPa = rule.law, math.inf if rule.yield_MPa is None else float(rule.yield_MPa)
-    curve = (plain(law.slopes), plain(law.log_constants), plain(law.knees), float(law.cutoff))
-    allowed = rule.bending_factor != "none", allowances.RATIO_LEVELS.get(rule.stress_ratio, 0.0)
-    return CompiledRule(*curve, rule.uses_bending_ratio, yield_MPa, rule.mean_stress, *allowed)
+class CycleStress(NamedTuple):
+    """Stresses of c cycles: their range, and their least and largest stress with the offset, (c,) [MPa].
+
+    ``equivalent`` (c,) is the equivalent range before f_M, ``f_M`` (c,) what it is to be divided by.
+    """
+
+    range: Floats
+    minimum: Floats
+    maximum: Floats
+    equivalent: Floats
+    f_M: Floats  # noqa: N815
 
 
-def nothing_counted(points: int, law: DamageLaw, *, ranges: bool = False) -> tuple[NDArray[np.void], Floats]:
-    """Totals and histogram of a block before its first cycle; with ``ranges`` any law has bins of dS, and of S too."""
+class Counted(NamedTuple):
+    """What is summed up of the cycles of n points.
+
+    ``totals`` (n, 2) and ``histogram`` (n, 2, b, 2) are those of ``nothing_counted``; ``pieces`` (n, 2, p) is the
+    damage in each of p equal pieces of the record, p 0 where it is not wanted.
+    """
+
+    totals: NDArray[np.void]
+    histogram: Floats
+    pieces: Floats
+
+    def at(self, some: slice) -> "Counted":
+        """Take some points."""
+        return Counted(self.totals[some], self.histogram[some], self.pieces[some])
+
+
+def nothing_counted(points: int, law: DamageLaw, pieces: Floats | None = None) -> Counted:
+    """Count of a block before its first cycle; with ``pieces`` any law has bins of dS, and of S too."""
     totals = np.zeros((points, 2), dtype=[(name, np.float64) for name in _SCALARS])
-    bins = 2 * HISTOGRAM_BINS if ranges else 0 if law.is_straight else HISTOGRAM_BINS
-    return totals, np.zeros((points, 2, bins, 2))
+    totals["r_largest"] = math.nan
+    bins = 2 * HISTOGRAM_BINS if pieces is not None else 0 if law.is_straight else HISTOGRAM_BINS
+    return Counted(totals, np.zeros((points, 2, bins, 2)), np.zeros((points, 2, 0)) if pieces is None else pieces)
 
 
-def own_of(stress: BlockStress) -> tuple[Floats, Floats]:
-    """Shear factor, 1 where none is wanted, and offset [MPa] of each point and surface, (n, 2) each."""
-    factor = np.ones((len(stress), 2)) if stress.shear_factor is None else stress.shear_factor
-    return plain(factor), plain(stress.level)
-
-
-def no_pieces(points: int) -> Floats:
-    """Damage of a block in no piece of time: not wanted."""
-    return np.zeros((points, 2, 0))
-
-
-def block_count(totals: NDArray[np.void], histogram: Floats, rule: CycleRule, offset: Floats) -> BlockCount:
+def block_count(counted: Counted, rule: CycleRule, offset: Floats) -> BlockCount:
     """Give the totals of a block their names; the mean of its samples gets the ``offset`` (n, 2)."""
+    totals = counted.totals
     totals["mean"] += offset
     if rule.yield_MPa is None:
         totals["damage_mean_stress"] = np.nan
-    return BlockCount(**{name: totals[name].copy() for name in _SCALARS}, histogram=histogram)
+    return BlockCount(**{name: totals[name].copy() for name in _SCALARS}, histogram=counted.histogram)
 
 
 def refuse_not_finite(membrane: Floats, bending: Floats) -> None:
@@ -98,104 +95,91 @@ def plain(array: Floats) -> Floats:
     return np.require(array, np.float64, ["C", "W"])
 
 
-# The formulas as they are written down, for one cycle.
-ratio_factor = compiled()(master.ratio_factor)
-has_mean_stress = compiled()(master.has_mean_stress)
-factor_of_stress_ratio = compiled()(master.factor_of_stress_ratio)
-equivalent_range = compiled()(master.equivalent_range)
-segment = inlined(master.segment)
-damage_on_segment = compiled()(master.damage_on_segment)
-bending_allowance = compiled()(allowances.bending_allowance)
-stress_ratio_factor = compiled()(allowances.stress_ratio_factor)
+def cycle_stress(
+    cycles: SurfaceCycles, stress: BlockStress, rule: CycleRule, scale: Floats | float = 1.0
+) -> CycleStress:
+    """Stresses of cycles: ``S = |ds|``, ``r = |db| / (|dm| + |db|)`` (Eq. 7), ``S size / I(r)^(1/m)`` and f_M (Eq. 8).
 
-
-@compiled()
-def bending_factor(r: float, uses_bending_ratio: bool, allows_for_bending: bool) -> float:
-    """What the bending ratio of a cycle divides its range by: I(r)^(1/m), the allowance of the curve, or 1."""
-    if uses_bending_ratio:
-        return float(ratio_factor(r))
-    return float(bending_allowance(r)) if allows_for_bending else 1.0
-
-
-@compiled()
-def mean_stress_factor(minimum: float, maximum: float, yield_MPa: float) -> float:
-    """f_M of a cycle between two stresses, 1 where it does not apply."""
-    if has_mean_stress(minimum, maximum, yield_MPa):
-        return float(factor_of_stress_ratio(minimum / maximum))
-    return 1.0
-
-
-@compiled()
-def cycle_damage(x: float, rule: CompiledRule) -> float:
-    """Damage d = 1 / N of one cycle of the equivalent range x, 0 below the cut-off."""
-    if x < rule.cutoff or x == 0.0:
-        return 0.0
-    j = segment(x, rule.knees)
-    return float(damage_on_segment(x, rule.slopes[j], rule.log_constants[j]))
-
-
-@compiled()
-def add_to_bin(n: float, x: float, k: float, histogram: Floats) -> None:
-    """Add n cycles of the range x to sum n and sum n x^k of its bin."""
-    decades = math.log10(max(x, 1e-3)) + 3.0
-    bin_ = min(int(decades * BINS_PER_DECADE), HISTOGRAM_BINS - 1)
-    histogram[bin_, 0] += n
-    histogram[bin_, 1] += n * math.exp(k * math.log(x))
-
-
-@compiled()
-def tally(
-    point: Surface, total: NDArray[np.void], histogram: Floats, rule: CompiledRule, buffers: Buffers, cycles: int
-) -> None:
-    """Add cycles of one point and surface to its totals and its histogram: ``sum n d(dS)``, ``sum n S^k`` and the rest.
-
-    A cycle between the instants i and j has the range ``S = |ds|``, ``r = |db| / (|dm| + |db|)`` (Eq. 7) and
-    ``dS = S size / (I(r)^(1/m) f_M)`` (Eq. 8), with the allowances of the curve in the places of I and f_M where it has
-    some; the damage is their Miner sum (Eq. 12). The range is that of the samples to the last bit, whatever the offset.
+    The allowances of the curve stand in the places of I and f_M where it has some. ``scale`` (c,) is on all stresses,
+    offset included.
     """
-    membrane, bending, side, size = point.membrane, point.bending, point.side, point.size
-    k = rule.slopes[0]
-    I_same = bending_factor(point.same_ratio, rule.uses_bending_ratio, rule.allows_for_bending)
-    same_scale = equivalent_range(1.0, size, I_same, 1.0)
-    for c in range(cycles):
-        i, j, n = buffers.start[c], buffers.end[c], buffers.weight[c]
-        s_i, s_j = membrane[i] + side * bending[i], membrane[j] + side * bending[j]
-        S = max(s_i, s_j) - min(s_i, s_j)
-        minimum, maximum = min(s_i, s_j) + point.offset, max(s_i, s_j) + point.offset
-        dm, db = abs(membrane[j] - membrane[i]), abs(bending[j] - bending[i])
-        bends = rule.uses_bending_ratio, rule.allows_for_bending
-        I = bending_factor(db / (dm + db), bends[0], bends[1])  # noqa: E741 - the symbol of the standard
-        f_R = stress_ratio_factor(minimum, maximum, rule.ratio_level) if rule.ratio_level > 0.0 else 1.0
-        x = equivalent_range(S, size, I, f_R)
-        f_M = mean_stress_factor(minimum, maximum, rule.yield_MPa)
-        dS = x / f_M if rule.mean_stress else x
-        damage = cycle_damage(dS, rule)
-        buffers.damage[c] = n * damage
-        total["damage"] += n * damage
-        total["damage_mean_stress"] += n * (damage if f_M == 1.0 else cycle_damage(x / f_M, rule))
-        total["cycles"] += n
-        total["power_sum"] += n * math.exp(k * math.log(S))  # faster than pow
-        total["max_equivalent_range"] = max(total["max_equivalent_range"], dS)
-        if total["max_range"] < S:
-            total["max_range"] = S
-            total["r_largest"] = minimum / maximum if maximum != 0.0 else math.nan
-        if histogram.shape[0] > 0:
-            total["damage_same_ratio"] += n * cycle_damage(S * same_scale, rule)
-            total["damage_with_shear"] += n * cycle_damage(dS * point.shear_factor, rule)
-            add_to_bin(n, dS, k, histogram[:HISTOGRAM_BINS])
-            if histogram.shape[0] > HISTOGRAM_BINS:
-                add_to_bin(n, S, k, histogram[HISTOGRAM_BINS:])
-    if histogram.shape[0] == 0:  # d(a S) = d(a) S**k of a straight law
-        total["damage_same_ratio"] = cycle_damage(same_scale, rule) * total["power_sum"]
+    point, face = cycles.surface // 2, cycles.surface % 2
+    side, offset = 1.0 - 2.0 * face, scale * stress.level[point, face]
+    start, end = scale * (cycles.membrane + side * cycles.bending)
+    low, high = np.minimum(start, end), np.maximum(start, end)
+    S, minimum, maximum = high - low, low + offset, high + offset  # the range is that of the samples to the last bit
+    dm, db = np.diff(cycles.membrane, axis=0)[0], np.diff(cycles.bending, axis=0)[0]
+    I = rule.ratio_factor(bending_ratio(dm, db))  # noqa: E741 - the symbol of the standard
+    f_R = rule.mean_stress_factor(minimum, maximum) if rule.stress_ratio != "none" else 1.0
+    f_M = np.ones_like(S) if rule.yield_MPa is None else mean_stress_factor(minimum, maximum, rule.yield_MPa)
+    return CycleStress(S, minimum, maximum, equivalent_range(S, stress.size[point], I, f_R), f_M)
 
 
-@compiled()
-def lay_halves(start: Indices, end: Indices, damage: Floats, cycles: int, samples: int, laid: Floats) -> None:
-    """Add half of the damage of each cycle to the bin of either instant, of the equal bins of a record of ``samples``.
+def tally(cycles: SurfaceCycles, stress: BlockStress, rule: CycleRule, counted: Counted, samples: int) -> None:
+    """Add cycles to what is counted of their points: ``sum n d(dS)`` (Eq. 12), ``sum n S^k`` and the rest.
 
-    So the bins add up to the damage, that of cycles from one to another and across the end of the record included.
+    ``stress`` and ``counted`` are of the same points; ``samples`` are those of the record.
     """
-    for c in range(cycles):
-        half = 0.5 * damage[c]
-        laid[start[c] * laid.size // samples] += half
-        laid[end[c] * laid.size // samples] += half
+    with np.errstate(divide="ignore", over="ignore", invalid="ignore"):  # of ranges that are 0, or infinite
+        _tally(cycles, stress, rule, counted, samples)
+
+
+def _tally(cycles: SurfaceCycles, stress: BlockStress, rule: CycleRule, counted: Counted, samples: int) -> None:
+    of, n, k, law = cycle_stress(cycles, stress, rule), cycles.weight, rule.law.slopes[0], rule.law
+    dS = of.equivalent / of.f_M if rule.mean_stress else of.equivalent
+    damage = cycle_damage(dS, law)
+    without = rule.yield_MPa is None or rule.mean_stress
+    with_f_M = damage if without else cycle_damage(of.equivalent / of.f_M, law)
+    total = counted.totals.reshape(-1)
+    added = {
+        "damage": n * damage,
+        "damage_mean_stress": n * with_f_M,
+        "cycles": n,
+        "power_sum": n * np.exp(k * np.log(of.range)),
+    }
+    I_same = rule.ratio_factor(stress.same_ratio)
+    same_scale = equivalent_range(1.0, stress.size[:, None], I_same, 1.0).reshape(-1)
+    if counted.histogram.shape[2]:
+        shear = 1.0 if stress.shear_factor is None else stress.shear_factor.reshape(-1)[cycles.surface]
+        added["damage_same_ratio"] = n * cycle_damage(of.range * same_scale[cycles.surface], law)
+        added["damage_with_shear"] = n * cycle_damage(dS * shear, law)
+        for first, x in enumerate((dS, of.range)[: counted.histogram.shape[2] // HISTOGRAM_BINS]):
+            _add_to_bins(cycles, x, k, counted.histogram[:, :, first * HISTOGRAM_BINS :])
+    for name, values in added.items():
+        np.add.at(total[name], cycles.surface, values)  # one after the other: the sum of a chunk never stands alone
+    if not counted.histogram.shape[2]:  # d(a S) = d(a) S**k of a straight law
+        total["damage_same_ratio"] = cycle_damage(same_scale, law) * total["power_sum"]
+    np.maximum.at(total["max_equivalent_range"], cycles.surface, dS)
+    _raise_largest(total, cycles.surface, of)
+    if counted.pieces.shape[2]:
+        _lay_halves(cycles, n * damage, samples, counted.pieces)
+
+
+def _raise_largest(total: NDArray[np.void], surface: Indices, of: CycleStress) -> None:
+    """Put the largest range of each surface in place, and the stress ratio of the first cycle that has it."""
+    before = total["max_range"].copy()
+    np.maximum.at(total["max_range"], surface, of.range)
+    now = total["max_range"]
+    largest = np.flatnonzero((of.range == now[surface]) & (now > before)[surface])
+    raised, first = np.unique(surface[largest], return_index=True)
+    minimum, maximum = of.minimum[largest[first]], of.maximum[largest[first]]
+    total["r_largest"][raised] = np.divide(minimum, maximum, out=np.full_like(maximum, math.nan), where=maximum != 0.0)
+
+
+def _add_to_bins(cycles: SurfaceCycles, x: Floats, k: float, histogram: Floats) -> None:
+    """Add cycles of the ranges x to sum n and sum n x^k of their bins, (n, 2, b, 2)."""
+    decades = np.log10(np.maximum(x, 1e-3)) + 3.0
+    bin_ = np.minimum((decades * BINS_PER_DECADE).astype(np.intp), HISTOGRAM_BINS - 1)
+    at = cycles.surface // 2, cycles.surface % 2, bin_
+    np.add.at(histogram[..., 0], at, cycles.weight)
+    np.add.at(histogram[..., 1], at, cycles.weight * np.exp(k * np.log(x)))
+
+
+def _lay_halves(cycles: SurfaceCycles, damage: Floats, samples: int, pieces: Floats) -> None:
+    """Add half of the damage of each cycle to the piece of either instant, of the equal pieces of a record.
+
+    So the pieces add up to the damage, that of cycles from one to another and across the end of the record included.
+    """
+    piece = cycles.at * pieces.shape[2] // samples
+    for at in piece:
+        np.add.at(pieces, (cycles.surface // 2, cycles.surface % 2, at), 0.5 * damage)

@@ -15,7 +15,7 @@ from hypothesis.extra import numpy as arrays
 
 import fatigue
 from fatigue.errors import CaseError, DataError, FatigueError, NumericalError
-from fatigue.life.counting.reversals import buffers_for, find_cycles
+from fatigue.life.counting.reversals import cycles_of
 
 PLAIN = [0.0, 3.0, -1.0, 2.0, 0.0]
 
@@ -23,10 +23,8 @@ PLAIN = [0.0, 3.0, -1.0, 2.0, 0.0]
 def counted_plainly(signal, residue):
     """The cycles from the compiled loops alone: range, mean, count, start, end."""
     s = np.array(signal, dtype=np.float64)
-    buffers = buffers_for(s.size)
-    n = find_cycles(s, residue == "repeat", buffers)
-    start, end = buffers.start[:n], buffers.end[:n]
-    return np.abs(s[end] - s[start]), 0.5 * (s[start] + s[end]), buffers.weight[:n], start, end
+    start, end, weight, _ = cycles_of(s[None], recurs=residue == "repeat")
+    return np.abs(s[end] - s[start]), 0.5 * (s[start] + s[end]), weight, start, end
 
 
 def assert_as_ever(signal, residue):
