@@ -3,11 +3,11 @@
 from collections.abc import Mapping
 
 import numpy as np
-import plotly.graph_objects as go
 from numpy.typing import NDArray
 
 from fatigue.life.curves import DamageLaw
 from fatigue.life.rule import cycle_damage
+from fatigue.report.figures.drawn import Figure, Trace
 from fatigue.report.figures.given import ResultTable, check_known, check_one_each, frame_of
 from fatigue.report.figures.style import (
     DASHES,
@@ -15,7 +15,6 @@ from fatigue.report.figures.style import (
     QUIET,
     SEQUENTIAL,
     SHARES,
-    Trace,
     axis,
     colour_bar,
     event_colours,
@@ -32,7 +31,7 @@ CLASSES_PER_DECADE = 8  # of equivalent ranges on the S-N curve
 STAIRS = 60
 
 
-def rainflow_matrices(cycles: ResultTable, per_km: NDArray[np.float64]) -> go.Figure:
+def rainflow_matrices(cycles: ResultTable, per_km: NDArray[np.float64]) -> Figure:
     """Rainflow matrix and damage matrix side by side: mean over range in equal classes, empty classes white.
 
     ``cycles`` has the columns of the table of cycles; ``per_km`` (c,) is how often each cycle occurs [1/km].
@@ -85,7 +84,7 @@ def counts_matrix(
     }
 
 
-def exceedance(cycles: ResultTable, passes_per_km: Mapping[str, float], most: int = 6) -> go.Figure:
+def exceedance(cycles: ResultTable, passes_per_km: Mapping[str, float], most: int = 6) -> Figure:
     """Range exceedance: how often each stress range is reached in 1e6 km, by event and for the whole mission.
 
     ``cycles`` has the columns of the table of cycles; ``most`` events, those with the largest ranges, are drawn.
@@ -141,7 +140,7 @@ def cumulative(
 
 def sn_with_spectrum(
     cycles: ResultTable, per_target: NDArray[np.float64], laws: Mapping[str, DamageLaw], used: str, unit: str
-) -> go.Figure:
+) -> Figure:
     """S-N curves at their survival levels with the cumulative spectrum of the target mileage on them.
 
     Parameters
