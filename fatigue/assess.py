@@ -45,6 +45,7 @@ from fatigue.pipeline.tables.tally import Progress, Tally, body_warnings
 from fatigue.pipeline.tables.written import write_tables
 from fatigue.readers.neutral.spare_memory import give_back
 from fatigue.report.files.vtp import write_vtp
+from fatigue.report.identity.identity import identity_of, issued
 from fatigue.results import (
     PAGE,
     PICTURE,
@@ -132,14 +133,14 @@ def assess(
     case, folder = given_case(case), given_path(folder, "folder")
     refuse(CaseError, _screened_shear(case, share))
     settle_folder(folder, no_lock=no_lock)
-    own = input_paths(case)
+    own, identity = input_paths(case), identity_of(case)  # a logo that is unfit is refused before hours are spent
     refuse_foreign(folder, force=force, case_file=case.path, inputs=own)
     stage("reading and checking the case")
     (body, plan, record_warnings), inputs = with_inputs(
         case, partial(read_case, case, threads, strict=strict, require_verified=require_verified)
     )
     options = ScreeningOptions(share, proves_worst, histogram, precision)
-    key = key_of(inputs.register, options)
+    key = key_of(case, inputs.register, options)
 
     # another run may have been there meanwhile
     claim = claimed(folder, force=force, case_file=case.path, inputs=own, no_lock=no_lock)
@@ -179,7 +180,7 @@ def assess(
                 body, work, done.stations, folder, inputs.register, warnings, gravity, done.shear.statuses
             )
             documents = partial(write_page_and_picture, case=case, verification=verification)
-            write_records(unpublished, record, documents if report else None)
+            write_records(unpublished, record | issued({"result": key}, identity), documents if report else None)
             stage("putting the result in place")
             inputs.refuse_replaced()
             refuse_foreign(folder, force=force, case_file=case.path, inputs=own)  # edited while this run was going on

@@ -13,6 +13,8 @@ from fatigue.files.mishaps import refused_writing
 from fatigue.report import figures
 from fatigue.report.checks import read_checks
 from fatigue.report.figures.scene import BodyOutline
+from fatigue.report.identity.identity import Identity, found_identity, issued
+from fatigue.report.identity.section import identity_section
 from fatigue.report.inputs import FoundInputs, find_inputs
 from fatigue.report.page_text import page_text
 from fatigue.report.result import ShownResult, read_result
@@ -36,7 +38,7 @@ from fatigue.report.sections.transitions import transitions
 from fatigue.report.sections.unit_loads import load_table
 from fatigue.report.sections.weld import weld_page
 from fatigue.report.sections.why import read_why
-from fatigue.results import PAGE, enlist
+from fatigue.results import PAGE, enlist, read_provenance
 
 log = logging.getLogger(__name__)
 
@@ -73,22 +75,28 @@ def write_report(
     """
     folder = given_path(folder, "folder")
     path = (into or folder) / PAGE
-    page = report_page(folder, case_path, verification)
+    record = read_provenance(folder)
+    identity = found_identity(record, folder, None if case_path is None else given_path(case_path, "case_path"))
+    page = report_page(folder, case_path, verification, identity)
     with refused_writing(path):  # a path need not be UTF-8
         path.write_text(page, encoding="utf-8", errors="backslashreplace", newline="\n")
     if into is None:
-        enlist(folder, path)
+        enlist(folder, path, said=issued(record, identity))
     return path
 
 
 def report_page(
-    folder: Path | str, case_path: Path | str | None = None, verification: Sequence[Mapping[str, Any]] = ()
+    folder: Path | str,
+    case_path: Path | str | None = None,
+    verification: Sequence[Mapping[str, Any]] = (),
+    identity: Identity | None = None,
 ) -> str:
-    """Return the page as text; see ``write_report``."""
+    """Return the page as text; see ``write_report``. ``identity`` is by default the one that is found by the case."""
     folder = given_path(folder, "folder")
     case_path = None if case_path is None else given_path(case_path, "case_path")
     result = read_result(folder, MOST_DETAILED, MOST_STATIONS, WORST_POINTS)
     record = result.record
+    identity = found_identity(record, folder, case_path) if identity is None else identity
     inputs = find_inputs(record, folder, case_path)
     missing: list[Problem] = []
     details, steps = _details(result, inputs, missing)
@@ -109,6 +117,7 @@ def report_page(
         "result": record.get("result", ""),
         "missing": missing,
         "outdated": inputs.outdated,
+        **identity_section(identity, record),
         "head": _head(result),
         "assumptions": method.assumptions(record),
         "warnings": _warnings(
@@ -152,7 +161,7 @@ def report_page(
         "inputs": tables.input_table(record["inputs"]),
         "audit": tables.audit_table(record.get("conversion")),
     }
-    return page_text("fatigue.report", "report.html", context, figs)
+    return page_text("fatigue.report", "report.html", context, figs, identity.look.language)
 
 
 def _details(

@@ -60,6 +60,7 @@ from fatigue.results.origin import (
 from fatigue.results.outputs import recorded
 from fatigue.results.provenance import (
     JOURNAL,
+    AddedKey,
     input_register,
     read_provenance,
     refuse_another,
@@ -107,6 +108,7 @@ __all__ = [
     "TRACK",
     "WELDS",
     "WORKBOOK",
+    "AddedKey",
     "Addition",
     "Column",
     "TableWriter",

@@ -21,7 +21,9 @@ PROVENANCE = "provenance.json"  # a folder without it holds no finished result
 CHECKSUMS = "provenance.json.sha256"  # of the record and of the outputs it lists
 JOURNAL = ".fatigue-publish"  # says that a finished result is being put in place, see `fatigue.results.publish`
 
-AddedKey = Literal["diagnosis", "load_spectra", "ride", "shift_study"]  # of the record: what is said of added tables
+AddedKey = Literal[
+    "diagnosis", "identity", "load_spectra", "ride", "shift_study"
+]  # of the record: what is said of added tables
 WRITTEN_LATER = ("outputs", *get_args(AddedKey))  # keys that change after the assessment, the result staying the same
 
 PUT_BACK = "Put the file back as it was, or run the assessment again with --force"
