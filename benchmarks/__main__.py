@@ -13,6 +13,7 @@ from benchmarks.decisions import what_if, what_if_command
 from benchmarks.finite_elements import finite_elements
 from benchmarks.ledger.command import main as ledger
 from benchmarks.panel import large_mesh
+from benchmarks.shares import shares
 from benchmarks.shear import shear
 
 PARTS = {
@@ -26,6 +27,7 @@ PARTS = {
     "first-run": processes.first_run,
     "memory": processes.memory,
     "shear": shear,
+    "shares": shares,
     "finite-elements": finite_elements,
     "large-mesh": large_mesh,
     "what-if": what_if,

@@ -191,7 +191,15 @@ COUNTING = (
         "all signals in one call",
     ),
     Way("fatigue, every cycle", OURS, "float64", "half", _ours_listed, listed, "ranges, means, counts and instants"),
-    Way("pyyeti", "pyyeti", "float64", "half", _pyyeti, listed, "`findap`, then `rainflow` in C"),
+    Way(
+        "pyyeti",
+        "pyyeti",
+        "float64",
+        "half",
+        _pyyeti,
+        listed,
+        "`findap`, which takes steps within its tolerance for level, then `rainflow`",
+    ),
     Way(
         "pyLife",
         *("pylife", "float64", "half"),
@@ -206,7 +214,15 @@ COUNTING = (
         listed,
         "`find_rainflow_ranges` as by default: samples are rounded to classes; the residue is counted twice over",
     ),
-    Way(f"fatpack, {CLASSES} classes", "fatpack", "float64", "repeat", lambda: _fatpack(CLASSES), listed, "the same"),
+    Way(
+        f"fatpack, {CLASSES} classes",
+        "fatpack",
+        "float64",
+        "repeat",
+        lambda: _fatpack(CLASSES),
+        listed,
+        "finer classes",
+    ),
     Way(
         "FLife",
         *("FLife", "float64", "repeat"),

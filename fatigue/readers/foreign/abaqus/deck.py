@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
+from math import isfinite
 from pathlib import Path
 
 import numpy as np
@@ -25,7 +26,7 @@ class _Part:
 
     name: str
     nodes: dict[int, NDArray[np.float64]] = field(default_factory=dict)
-    elements: dict[int, tuple[str, list[int], str]] = field(default_factory=dict)
+    elements: dict[int, tuple[str, tuple[int, ...], str, int]] = field(default_factory=dict)
     sets: dict[str, set[int]] = field(default_factory=dict)
     ranges: dict[str, list[range]] = field(default_factory=dict)  # of GENERATE, never listed: a slip may be huge
     sections: list[Keyword] = field(default_factory=list)
@@ -46,6 +47,7 @@ def read_inp(path: Path) -> FeModel:
         what = f"{len(generated)} keywords generate nodes or elements, *{generated[0].name} the first"
         raise DataError(Problem("generated", generated[0].where, what, "Write the deck with all nodes and elements"))
     parts, instances = _parts(words, problems)
+    del words  # with the text of all lines
     refuse(DataError, problems[:_MOST_PROBLEMS])
     grids: dict[int, NDArray[np.float64]] = {}
     shells: list[Shell] = []
@@ -55,17 +57,17 @@ def read_inp(path: Path) -> FeModel:
     others: dict[str, int] = {}
     for part, place in _placed_parts(parts, instances, problems):
         _refuse_twice(path, part, grids.keys(), [*shells, *solids])
-        grids |= {number: place.of(xyz) for number, xyz in part.nodes.items()}
+        grids.update(part.nodes if place.is_still else {number: place.of(xyz) for number, xyz in part.nodes.items()})
         of_element = _sections_of(part, sections, unconfirmed)
         doubts += _undefined_sets(part)
-        for number, (kind, nodes, where) in part.elements.items():
+        for number, (kind, nodes, file, line) in part.elements.items():
             form = abaqus_form(kind)
             if form is None:
                 others[kind.upper()] = others.get(kind.upper(), 0) + 1
             elif len(nodes) != form.corners + len(form.mids):
                 due = form.corners + len(form.mids)
                 what = f"element {number} of type {kind} has {len(nodes)} nodes, {due} are due"
-                problems.append(Problem("inp_damaged", where, what, "Write the deck again"))
+                problems.append(Problem("inp_damaged", f"{file}, line {line}", what, "Write the deck again"))
             else:
                 made = element_of(form, number, of_element.get(number, 0), nodes)
                 (shells if isinstance(made, Shell) else solids).append(made)  # type: ignore[arg-type]
@@ -124,7 +126,7 @@ def _take_nodes(word: Keyword, part: _Part, problems: list[Problem]) -> None:
         if not 1 <= len(values) <= 7 or not _is_label(values[0]):
             problems.append(_bad(row, f"a node of {len(values)} numbers"))
             continue
-        number, xyz = int(values[0]), np.array([*values[1:4], 0.0, 0.0, 0.0][:3])
+        number, xyz = int(values[0]), np.array([*values[1:4], 0.0, 0.0, 0.0][:3]) + 0.0  # no -0.0
         if number in part.nodes and not np.array_equal(part.nodes[number], xyz):
             what = f"node {number} is given twice, at two places"
             problems.append(Problem("node_twice", f"{row[0]}, line {row[1]}", what, "Give every node its own id"))
@@ -161,11 +163,10 @@ def _take_elements(word: Keyword, part: _Part, problems: list[Problem]) -> None:
 
 
 def _put_element(kind: str, row: list[int], first: Data, part: _Part, own: set[int], problems: list[Problem]) -> None:
-    where = f"{first[0]}, line {first[1]}"
     if row[0] in part.elements:
-        what = f"element {row[0]} is given twice"
+        where, what = f"{first[0]}, line {first[1]}", f"element {row[0]} is given twice"
         problems.append(Problem("element_twice", where, what, "Give every element its own id"))
-    part.elements[row[0]] = (kind, row[1:], where)
+    part.elements[row[0]] = (kind, tuple(row[1:]), first[0], first[1])
     own.add(row[0])
 
 
@@ -273,7 +274,7 @@ def _numbers(row: Data, problems: list[Problem]) -> list[float] | None:
         bad = next(text for text in texts if not _is_number(text))
         problems.append(_bad(row, f"{bad[:30]!r} is no number"))
         return None
-    if not np.isfinite(values).all():
+    if not all(map(isfinite, values)):
         problems.append(_bad(row, "a number is not finite"))
         return None
     return values

@@ -17,6 +17,11 @@ class Placed:
     turn: NDArray[np.float64] = field(default_factory=lambda: np.eye(3))
     about: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
 
+    @property
+    def is_still(self) -> bool:
+        """Whether every position stays where it is."""
+        return not self.move.any() and bool((self.turn == np.eye(3)).all())
+
     def of(self, place: NDArray[np.float64]) -> NDArray[np.float64]:
         """Global position of a position in the part, (3,)."""
         return np.asarray(self.turn @ (place + self.move - self.about) + self.about)
