@@ -44,7 +44,7 @@ SAMPLES_AT_ONCE = 4_000_000  # stress samples of one component recovered before 
 class _Histories(NamedTuple):
     """Stresses of a block and, per point and surface, what is counted: see ``nothing_counted``; or damage of trials.
 
-    ``pieces`` (n, 2, p): damage in each of p equal pieces of the record, p 0 where it is not wanted.
+    ``pieces`` (n, s, p): damage in each of p equal pieces of the record, p 0 where it is not wanted.
     """
 
     membrane: Floats
@@ -64,8 +64,8 @@ def count_rows(
 ) -> BlockCount:
     """Count a block as ``count`` does: the histories of a few points at a time.
 
-    With ``pieces`` (n, 2, p), to which the damage in p equal pieces of the record is added, there are bins of all
-    ranges: see ``nothing_counted``.
+    With ``pieces`` (n, s, p), to which the damage in p equal pieces of the record is added, there are bins of all
+    ranges: see ``nothing_counted``. With one of the s surfaces, the count is of the top only.
     """
     counts, begin, how = [], 0, (record.recurs, record.vertex)
     for some, both in _histories(stress, record):
@@ -146,21 +146,22 @@ def _count_some(
     """
     membrane, bending = histories
     refuse_not_finite(membrane, bending)
-    totals, histogram = nothing_counted(len(membrane), rule.law, ranges=pieces is not None)
-    of_points = plain(membrane), plain(bending), plain(some.size), plain(some.same_ratio), *own_of(some)
     laid = no_pieces(len(membrane)) if pieces is None else pieces
+    surfaces = laid.shape[1]
+    totals, histogram = nothing_counted(len(membrane), rule.law, surfaces=surfaces, ranges=pieces is not None)
+    of_points = plain(membrane), plain(bending), plain(some.size), plain(some.same_ratio), *own_of(some)
     block = _Histories(*of_points, totals, histogram, no_trials(len(membrane)), laid)
     _count(block, *how, compiled_rule(rule), buffers_for(membrane.shape[1]))
-    return block_count(totals, histogram, rule, some.level)
+    return block_count(totals, histogram, rule, some.level[:, :surfaces])
 
 
 @compiled()
 def _count(block: _Histories, recurs: bool, vertex: bool, rule: CompiledRule, buffers: Buffers) -> None:
-    """Count both surfaces of every row of the block."""
+    """Count the surfaces of every row of the block."""
     s = np.empty(block.membrane.shape[1])
     room = np.empty((3, s.size if vertex else 0))  # membrane, bending and shifts of a history of vertices
     for row in range(block.membrane.shape[0]):
-        for surface in range(2):
+        for surface in range(block.totals.shape[1]):
             side = 1.0 - 2.0 * surface
             for i in range(s.size):
                 s[i] = block.membrane[row, i] + side * block.bending[row, i]

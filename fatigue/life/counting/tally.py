@@ -59,11 +59,17 @@ def compiled_rule(rule: CycleRule) -> CompiledRule:
     return CompiledRule(*curve, rule.uses_bending_ratio, yield_MPa, rule.mean_stress, *allowed)
 
 
-def nothing_counted(points: int, law: DamageLaw, *, ranges: bool = False) -> tuple[NDArray[np.void], Floats]:
-    """Totals and histogram of a block before its first cycle; with ``ranges`` any law has bins of dS, and of S too."""
-    totals = np.zeros((points, 2), dtype=[(name, np.float64) for name in _SCALARS])
+def nothing_counted(
+    points: int, law: DamageLaw, *, surfaces: int = 2, ranges: bool = False
+) -> tuple[NDArray[np.void], Floats]:
+    """Totals and histogram of a block before its first cycle; with ``ranges`` any law has bins of dS, and of S too.
+
+    With ``ranges`` the damage with shear and that with one bending ratio are left out. One of the ``surfaces`` is the
+    top.
+    """
+    totals = np.zeros((points, surfaces), dtype=[(name, np.float64) for name in _SCALARS])
     bins = 2 * HISTOGRAM_BINS if ranges else 0 if law.is_straight else HISTOGRAM_BINS
-    return totals, np.zeros((points, 2, bins, 2))
+    return totals, np.zeros((points, surfaces, bins, 2))
 
 
 def own_of(stress: BlockStress) -> tuple[Floats, Floats]:
@@ -135,12 +141,12 @@ def cycle_damage(x: float, rule: CompiledRule) -> float:
 
 
 @compiled()
-def add_to_bin(n: float, x: float, k: float, histogram: Floats) -> None:
-    """Add n cycles of the range x to sum n and sum n x^k of its bin."""
+def add_to_bin(n: float, x: float, power: float, histogram: Floats) -> None:
+    """Add n cycles of the range x to sum n and sum n x^k of its bin; ``power`` is x^k."""
     decades = math.log10(max(x, 1e-3)) + 3.0
     bin_ = min(int(decades * BINS_PER_DECADE), HISTOGRAM_BINS - 1)
     histogram[bin_, 0] += n
-    histogram[bin_, 1] += n * math.exp(k * math.log(x))
+    histogram[bin_, 1] += n * power
 
 
 @compiled()
@@ -174,17 +180,19 @@ def tally(
         total["damage"] += n * damage
         total["damage_mean_stress"] += n * (damage if f_M == 1.0 else cycle_damage(x / f_M, rule))
         total["cycles"] += n
-        total["power_sum"] += n * math.exp(k * math.log(S))  # faster than pow
+        power = math.exp(k * math.log(S))  # faster than pow
+        total["power_sum"] += n * power
         total["max_equivalent_range"] = max(total["max_equivalent_range"], dS)
         if total["max_range"] < S:
             total["max_range"] = S
             total["r_largest"] = minimum / maximum if maximum != 0.0 else math.nan
         if histogram.shape[0] > 0:
+            add_to_bin(n, dS, math.exp(k * math.log(dS)), histogram[:HISTOGRAM_BINS])
+        if histogram.shape[0] == HISTOGRAM_BINS:
             total["damage_same_ratio"] += n * cycle_damage(S * same_scale, rule)
             total["damage_with_shear"] += n * cycle_damage(dS * point.shear_factor, rule)
-            add_to_bin(n, dS, k, histogram[:HISTOGRAM_BINS])
-            if histogram.shape[0] > HISTOGRAM_BINS:
-                add_to_bin(n, S, k, histogram[HISTOGRAM_BINS:])
+        elif histogram.shape[0] > HISTOGRAM_BINS:  # of points that have been counted before: only their ranges are new
+            add_to_bin(n, S, power, histogram[HISTOGRAM_BINS:])
     if histogram.shape[0] == 0:  # d(a S) = d(a) S**k of a straight law
         total["damage_same_ratio"] = cycle_damage(same_scale, rule) * total["power_sum"]
 
