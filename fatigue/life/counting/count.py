@@ -70,6 +70,25 @@ def count_histograms_and_pieces(
     return counted.histogram.reshape(len(stress), 2, 2, HISTOGRAM_BINS, 2)[:, :, ::-1], laid
 
 
+def count_top_and_pieces(
+    stress: BlockStress, record: CountedRecord, rule: CycleRule, pieces: int
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Histograms (n, 2, HISTOGRAM_BINS, 2) and pieces (n, ``pieces``) of ``count_histograms_and_pieces``, of the top.
+
+    The bottom of a point is the top of the same point with its bending stress reversed.
+
+    Raises
+    ------
+    NumericalError : a stress is not finite
+    """
+    if _is_long(record):
+        histograms, laid = count_histograms_and_pieces(stress, record, rule, pieces)
+        return histograms[:, 0], laid[:, 0]
+    laid = np.zeros((len(stress), 2, pieces))
+    counted = count_rows(stress, record, rule, pieces=laid, faces=(0,))
+    return counted.histogram[:, 0].reshape(len(stress), 2, HISTOGRAM_BINS, 2)[:, ::-1], laid[:, 0]
+
+
 def count_at_factors(
     stress: BlockStress,
     record: CountedRecord,

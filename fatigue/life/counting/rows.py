@@ -35,17 +35,22 @@ CACHED = 131_072  # samples of one component counted at a time: they stay in the
 
 
 def count_rows(
-    stress: BlockStress, record: CountedRecord, rule: CycleRule, *, pieces: Floats | None = None
+    stress: BlockStress,
+    record: CountedRecord,
+    rule: CycleRule,
+    *,
+    pieces: Floats | None = None,
+    faces: Sequence[int] = (0, 1),
 ) -> BlockCount:
     """Count a block as ``count`` does: the histories of a few points at a time.
 
     With ``pieces`` (n, 2, p), to which the damage in p equal pieces of the record is added, there are bins of all
-    ranges: see ``nothing_counted``.
+    ranges: see ``nothing_counted``. Only ``faces`` are counted, 0 top and 1 bottom; nothing is on others.
     """
     counts, begin, how = [], 0, (record.recurs, record.vertex)
     for some, both in _histories(stress, record):
         of_some = None if pieces is None else pieces[begin : begin + len(some)]
-        counts.append(_count_some(some, both, how, rule, of_some))
+        counts.append(_count_some(some, both, how, rule, of_some, faces))
         begin += len(some)
     return _joined(counts)
 
@@ -113,18 +118,19 @@ def _count_some(
     how: tuple[bool, bool],
     rule: CycleRule,
     pieces: Floats | None = None,
+    faces: Sequence[int] = (0, 1),
 ) -> BlockCount:
     """Count some points, of which membrane and bending stress over time are given.
 
-    ``how``: whether the record recurs, and whether reversals are read at their vertices. ``pieces``: as
-    of ``count_rows``.
+    ``how``: whether the record recurs, and whether reversals are read at their vertices. ``pieces`` and
+    ``faces``: as of ``count_rows``.
     """
     membrane, bending = (plain(part) for part in histories)
     refuse_not_finite(membrane, bending)
     counted = nothing_counted(len(membrane), rule.law, pieces)
     for rows in _cached(membrane):
         of_rows, sums = some.at(rows), counted.at(rows)
-        for face in range(2):
+        for face in faces:
             found, s = _cycles(membrane[rows], bending[rows], face, *how)
             sums.totals["mean"][:, face], sums.totals["kurtosis"][:, face] = mean_and_kurtosis(s)
             tally(found, of_rows, rule, sums, membrane.shape[1])

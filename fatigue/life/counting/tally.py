@@ -66,7 +66,11 @@ class Counted(NamedTuple):
 
 
 def nothing_counted(points: int, law: DamageLaw, pieces: Floats | None = None) -> Counted:
-    """Count of a block before its first cycle; with ``pieces`` any law has bins of dS, and of S too."""
+    """Count of a block before its first cycle; with ``pieces`` any law has bins of dS, and of S too.
+
+    With ``pieces`` the damage with shear and that with one bending ratio are left out: such points were counted before,
+    and only their ranges are wanted.
+    """
     totals = np.zeros((points, 2), dtype=[(name, np.float64) for name in _SCALARS])
     totals["r_largest"] = math.nan
     bins = 2 * HISTOGRAM_BINS if pieces is not None else 0 if law.is_straight else HISTOGRAM_BINS
@@ -139,15 +143,18 @@ def _tally(cycles: SurfaceCycles, stress: BlockStress, rule: CycleRule, counted:
     }
     I_same = rule.ratio_factor(stress.same_ratio)
     same_scale = equivalent_range(1.0, stress.size[:, None], I_same, 1.0).reshape(-1)
-    if counted.histogram.shape[2]:
+    bins = counted.histogram.shape[2]
+    if bins == HISTOGRAM_BINS:
         shear = 1.0 if stress.shear_factor is None else stress.shear_factor.reshape(-1)[cycles.surface]
         added["damage_same_ratio"] = n * cycle_damage(of.range * same_scale[cycles.surface], law)
         added["damage_with_shear"] = n * cycle_damage(dS * shear, law)
-        for first, x in enumerate((dS, of.range)[: counted.histogram.shape[2] // HISTOGRAM_BINS]):
-            _add_to_bins(cycles, x, k, counted.histogram[:, :, first * HISTOGRAM_BINS :])
+    if bins:
+        _add_to_bins(cycles, dS, n * np.exp(k * np.log(dS)), counted.histogram)
+    if bins > HISTOGRAM_BINS:
+        _add_to_bins(cycles, of.range, added["power_sum"], counted.histogram[:, :, HISTOGRAM_BINS:])
     for name, values in added.items():
         np.add.at(total[name], cycles.surface, values)  # one after the other: the sum of a chunk never stands alone
-    if not counted.histogram.shape[2]:  # d(a S) = d(a) S**k of a straight law
+    if not bins:  # d(a S) = d(a) S**k of a straight law
         total["damage_same_ratio"] = cycle_damage(same_scale, law) * total["power_sum"]
     np.maximum.at(total["max_equivalent_range"], cycles.surface, dS)
     _raise_largest(total, cycles.surface, of)
@@ -166,13 +173,13 @@ def _raise_largest(total: NDArray[np.void], surface: Indices, of: CycleStress) -
     total["r_largest"][raised] = np.divide(minimum, maximum, out=np.full_like(maximum, math.nan), where=maximum != 0.0)
 
 
-def _add_to_bins(cycles: SurfaceCycles, x: Floats, k: float, histogram: Floats) -> None:
-    """Add cycles of the ranges x to sum n and sum n x^k of their bins, (n, 2, b, 2)."""
+def _add_to_bins(cycles: SurfaceCycles, x: Floats, power: Floats, histogram: Floats) -> None:
+    """Add cycles of the ranges x to sum n and sum n x^k of their bins, (n, 2, b, 2); ``power`` is n x^k."""
     decades = np.log10(np.maximum(x, 1e-3)) + 3.0
     bin_ = np.minimum((decades * BINS_PER_DECADE).astype(np.intp), HISTOGRAM_BINS - 1)
     at = cycles.surface // 2, cycles.surface % 2, bin_
     np.add.at(histogram[..., 0], at, cycles.weight)
-    np.add.at(histogram[..., 1], at, cycles.weight * np.exp(k * np.log(x)))
+    np.add.at(histogram[..., 1], at, power)
 
 
 def _lay_halves(cycles: SurfaceCycles, damage: Floats, samples: int, pieces: Floats) -> None:

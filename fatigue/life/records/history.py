@@ -62,13 +62,14 @@ def stress_history(modal_stress: NDArray[np.float64], q: Samples) -> NDArray[np.
     The superposition of Eq. 5. It takes the modal coordinates (m, t) a bounded number of samples at a time, whatever
     their precision.
     """
-    stress = np.empty((*modal_stress.shape[:-1], q.shape[1]))
+    rows = modal_stress.reshape(-1, modal_stress.shape[-1])
+    stress = np.empty((len(rows), q.shape[1]))
     first = 0
-    for chunk in stress_chunks(modal_stress, q):
-        end = first + chunk.shape[-1]
-        stress[..., first:end] = chunk
+    for chunk in cached_chunks(q):
+        end = first + chunk.shape[1]
+        np.matmul(rows, chunk.astype(np.float64, copy=False), out=stress[:, first:end])
         first = end
-    return stress
+    return stress.reshape(*modal_stress.shape[:-1], -1)
 
 
 def stress_chunks(modal_stress: NDArray[np.float64], q: Samples) -> Iterator[NDArray[np.float64]]:

@@ -1,5 +1,6 @@
 """Rows of the table of cycles: what its columns are, for a cycle of an event as for one across events."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -33,6 +34,11 @@ class KeptPoint:
     membrane: NDArray[np.float64]
     bending: NDArray[np.float64]
     rated: RatedCurve
+
+    @property
+    def side(self) -> float:
+        """Sign of the bending stress at its face: 1 at the top, -1 at the bottom."""
+        return 1.0 - 2.0 * self.face
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -70,25 +76,35 @@ def kept_point(model: Model, point: WorstPoint) -> KeptPoint:
     )
 
 
-def cycle_rows(point: KeptPoint, event: str, cycles: CycleParts) -> dict[str, Any]:
-    """Rows of some cycles of a point in an event, with what the rule of its curve makes of them."""
+def cycle_rows(points: Sequence[KeptPoint], event: str, cycles: Sequence[CycleParts]) -> dict[str, Any]:
+    """Rows of some cycles of each of some points in an event, with what the rule of its curve makes of them."""
+    numbers = [_numbers(point, own) for point, own in zip(points, cycles, strict=True)]
+    lengths = [len(own.range) for own in cycles]
+    same, none = np.zeros(sum(lengths), dtype=np.int32), np.full(sum(lengths), -1, dtype=np.int32)
+    welds = list(dict.fromkeys(point.weld for point in points))
+    own = [(welds.index(p.weld), p.part, p.node, p.order, p.face) for p in points]
+    weld, part, node, order, face = np.repeat(np.array(own).T, lengths, axis=1)
+    return {
+        "weld": coded(weld, welds),
+        "part": part,
+        "node": node,
+        "order": order,
+        "surface": coded(face, FACES),
+        "event": coded(same, [event]),
+        "start_event": coded(none, [event]),
+        "end_event": coded(none, [event]),
+        **{name: np.concatenate([own[name] for own in numbers]) for name in numbers[0]},
+    }
+
+
+def _numbers(point: KeptPoint, cycles: CycleParts) -> dict[str, NDArray[np.floating]]:
+    """The columns of numbers of some cycles of one point."""
     rated, rule = point.rated, point.rated.rule
     r = bending_ratio(cycles.membrane, cycles.bending)
     size = rated.size(np.array([point.thickness]))
     f_M = rule.mean_stress_factor(cycles.minimum, cycles.minimum + cycles.range)
     dS = equivalent_range(cycles.range, size, rule.ratio_factor(r), f_M)
-
-    n = len(cycles.range)
-    same, none = np.zeros(n, dtype=np.int32), np.full(n, -1, dtype=np.int32)
     return {
-        "weld": coded(same, [point.weld]),
-        "part": np.full(n, point.part),
-        "node": np.full(n, point.node),
-        "order": np.full(n, point.order),
-        "surface": coded(same, [FACES[point.face]]),
-        "event": coded(same, [event]),
-        "start_event": coded(none, [event]),
-        "end_event": coded(none, [event]),
         "start_s": cycles.start_s,
         "end_s": cycles.end_s,
         "range_MPa": cycles.range,

@@ -21,7 +21,7 @@ from fatigue.pipeline.tables.sequence_cycles import sequence_rows
 from fatigue.results import TableWriter
 
 POINTS_AT_ONCE = 16  # a record is read once for so many, whatever groups of welds they are from
-_SAMPLES_AT_ONCE = 4_000_000  # of membrane and bending stress: 32 MB
+_SAMPLES_AT_ONCE = 2_000_000  # of membrane and bending stress: 16 MB
 
 
 def cycle_writer(table: TableWriter, loads: Sequence[EventLoad], plan: Plan | None = None) -> Batches[KeptPoint]:
@@ -39,7 +39,7 @@ def _write(table: TableWriter, loads: Sequence[EventLoad], plan: Plan | None, po
 
 
 def point_cycles(points: Sequence[KeptPoint], load: EventLoad) -> Iterator[dict[str, Any]]:
-    """Rows of ``cycles.parquet``: every cycle of one event, of one point after the other.
+    """Rows of ``cycles.parquet``, some points at a time: every cycle of one event, of one point after the other.
 
     A cycle has the stress ranges between its own two instants.
     """
@@ -52,8 +52,8 @@ def point_cycles(points: Sequence[KeptPoint], load: EventLoad) -> Iterator[dict[
         some = points[first : first + at_once]
         stress = load.stress_factor * np.stack([*(p.membrane for p in some), *(p.bending for p in some)])
         membrane, bending = np.split(stress_history(stress, load.counted.q), 2)
-        for i, point in enumerate(some):
-            yield _cycle_rows(point, load, membrane[i], bending[i])
+        parts = [_cycles_of(point, load, membrane[i], bending[i]) for i, point in enumerate(some)]
+        yield cycle_rows(some, load.counted.event, parts)
 
 
 def _long_rows(point: KeptPoint, load: EventLoad) -> Iterator[dict[str, Any]]:
@@ -63,18 +63,20 @@ def _long_rows(point: KeptPoint, load: EventLoad) -> Iterator[dict[str, Any]]:
     def chunks() -> Iterator[tuple[NDArray[np.float64], NDArray[np.float64]]]:
         return ((membrane, bending) for membrane, bending in stress_chunks(modal, load.counted.q))
 
-    for piece in long_cycles(chunks, 1.0 if point.face == 0 else -1.0, load.residue, vertex=load.vertex):
+    for piece in long_cycles(chunks, point.side, load.residue, vertex=load.vertex):
         (start, end), (s_i, s_j) = piece.at.T, piece.stress.T
         cycles = Cycles(np.abs(s_j - s_i), middle(s_i, s_j), piece.weight, start, end)
         dm, db = (np.abs(np.diff(part, axis=1)[:, 0]) for part in (piece.membrane, piece.bending))
-        yield _rows_of(point, load, cycles, dm, db, np.minimum(s_i, s_j), piece.at.astype(np.float64) + piece.shift)
+        at = piece.at.astype(np.float64) + piece.shift
+        parts = _parts_of(point, load, cycles, dm, db, np.minimum(s_i, s_j), at)
+        yield cycle_rows([point], load.counted.event, [parts])
 
 
-def _cycle_rows(
+def _cycles_of(
     point: KeptPoint, load: EventLoad, membrane: NDArray[np.float64], bending: NDArray[np.float64]
-) -> dict[str, Any]:
-    """Rows of one point with these stress histories (t,) [MPa]."""
-    side, shift = 1.0 if point.face == 0 else -1.0, np.zeros(membrane.size if load.vertex else 0)
+) -> CycleParts:
+    """Cycles of one point with these stress histories (t,) [MPa]."""
+    side, shift = point.side, np.zeros(membrane.size if load.vertex else 0)
     if load.vertex:
         membrane, bending, shift = vertex_history(membrane, bending, side, recurs=load.record.recurs)
     stress = membrane + side * bending
@@ -82,10 +84,10 @@ def _cycle_rows(
     at = np.stack([cycles.start, cycles.end], axis=1).astype(np.float64)
     at += shift[at.astype(np.intp)] if load.vertex else 0.0
     dm, db = (np.abs(s[cycles.end] - s[cycles.start]) for s in (membrane, bending))
-    return _rows_of(point, load, cycles, dm, db, np.minimum(stress[cycles.start], stress[cycles.end]), at)
+    return _parts_of(point, load, cycles, dm, db, np.minimum(stress[cycles.start], stress[cycles.end]), at)
 
 
-def _rows_of(
+def _parts_of(
     point: KeptPoint,
     load: EventLoad,
     cycles: Cycles,
@@ -93,8 +95,8 @@ def _rows_of(
     db: NDArray[np.float64],
     minimum: NDArray[np.float64],
     at: NDArray[np.float64],
-) -> dict[str, Any]:
-    """Rows of some cycles (c,), with their ranges of membrane and bending stress and their smallest stress [MPa].
+) -> CycleParts:
+    """Some cycles (c,), with their ranges of membrane and bending stress and their smallest stress [MPa].
 
     ``at`` (c, 2) are their two instants, in steps from the first sample.
     """
@@ -103,5 +105,4 @@ def _rows_of(
     offset = 0.0 if of_faces is None else float(of_faces[0, point.face])
     step, start = load.counted.step, load.counted.start
     times = start + step * at[:, 0], start + step * at[:, 1]
-    parts = CycleParts(cycles.range, cycles.mean + offset, cycles.count, dm, db, minimum + offset, *times)
-    return cycle_rows(point, load.counted.event, parts)
+    return CycleParts(cycles.range, cycles.mean + offset, cycles.count, dm, db, minimum + offset, *times)

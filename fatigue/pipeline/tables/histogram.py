@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from fatigue.life.band.load import PIECES
 from fatigue.life.counting.block import BINS_PER_DECADE, HISTOGRAM_BINS, BlockStress
-from fatigue.life.counting.count import count_histograms_and_pieces
+from fatigue.life.counting.count import count_top_and_pieces
 from fatigue.life.mission import Plan
 from fatigue.pipeline.life_band.lives import MissionHistogram
 from fatigue.pipeline.life_band.points import BandPoint
@@ -110,18 +110,16 @@ def _filled(
     load, some = loads[event], [points[place] for place in places]
     rated = some[0].rated
     membrane = load.stress_factor * np.stack([point.membrane for point in some])
-    bending = load.stress_factor * np.stack([point.bending for point in some])
+    bending = load.stress_factor * np.stack([point.side * point.bending for point in some])
     size = rated.size(np.array([point.thickness for point in some]))
     offset = face_offset(membrane, bending, load)
     block = BlockStress(membrane, bending, size, np.zeros((len(some), 2)), offset=offset)
-    histogram, pieces = count_histograms_and_pieces(block, load.record, rated.rule, PIECES)
-    own = np.arange(len(some)), [point.face for point in some]
-    of_face = histogram[own]
-    at, kind, bin_ = np.nonzero(of_face[..., 0])
+    histogram, pieces = count_top_and_pieces(block, load.record, rated.rule, PIECES)
+    at, kind, bin_ = np.nonzero(histogram[..., 0])
     rows = np.empty(len(at), _ROW)
     rows["point"], rows["event"], rows["kind"], rows["bin"] = np.asarray(places)[at], event, kind, bin_
-    rows["count"], rows["power_sum"] = of_face[at, kind, bin_].T
-    return rows, pieces[own]
+    rows["count"], rows["power_sum"] = histogram[at, kind, bin_].T
+    return rows, pieces
 
 
 def _of_loops(

@@ -19,7 +19,7 @@ def sequence_rows(points: Sequence[KeptPoint], loads: Sequence[EventLoad], plan:
     The cycles that close have the count of a cycle, those they replace its negative, so that all rows of a loop add up
     to its row in ``damage.parquet``.
     """
-    side = np.array([1.0 if point.face == 0 else -1.0 for point in points])
+    side = np.array([point.side for point in points])
     membrane, bending = (np.stack([getattr(p, name) for p in points]) for name in ("membrane", "bending"))
     chains = chains_of_loops(membrane, bending, side, loads, plan.loops)
     for loop in plan.loops:
@@ -32,7 +32,7 @@ def _loop_rows(
     point: KeptPoint, residues: dict[int, Chain], loads: Sequence[EventLoad], plan: Plan, loop: Loop
 ) -> dict[str, Any]:
     """Rows of one loop at one point."""
-    side = 1.0 if point.face == 0 else -1.0
+    side = point.side
     found = loop_cycles(residues, loop.order, side, loads)
     start, end = found.start, found.end
     s_i, s_j = start.membrane + side * start.bending, end.membrane + side * end.bending
@@ -48,7 +48,7 @@ def _loop_rows(
     )
     names = [one.event for one in plan.passes]
     of_events = {"start_event": coded(start.event, names), "end_event": coded(end.event, names)}
-    return cycle_rows(point, loop.name, cycles) | of_events
+    return cycle_rows([point], loop.name, [cycles]) | of_events
 
 
 def _times(chain: Chain, loads: Sequence[EventLoad]) -> NDArray[np.float64]:
