@@ -319,7 +319,7 @@ def close_all(n: int, recurs: bool, room: _Room) -> int:
     for k in range(n):
         room.buffers.reversal[k] = k
     of = room.buffers
-    return close_cycles(room.s, n, recurs, of.reversal, of.start, of.end, of.weight, 0)
+    return close_cycles(room.s, n, recurs, of.reversal, of.start, of.end, of.weight)
 
 
 @compiled()

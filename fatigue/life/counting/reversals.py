@@ -81,16 +81,14 @@ def close_cycles(
     start: Indices,
     end: Indices,
     weight: Floats,
-    cycles: int,
 ) -> int:
     """Pair the reversals into cycles, in the order in which they close, and return how many (ASTM E1049-85, 5.4.4).
-
-    They are written behind the first ``cycles``, of signals before, and these are among those returned.
 
     The latest range ``X = |s_top - s_(top-1)|`` closes the range ``Y = |s_(top-1) - s_(top-2)|`` before it if X >= Y.
     A Y that contains the starting point is a half cycle, unless the block recurs; what is left at the end is half
     cycles. The open reversals are a stack at the front of ``reversal``.
     """
+    cycles = 0
     base = 0
     top = -1
     for k in range(reversals):
@@ -169,20 +167,21 @@ def find_cycles(
     ``number`` (n,) gets those of each, ``start``, ``end`` and ``weight`` have room for n (t + 1) of them; ``path``,
     ``step`` and ``reversal`` are work space.
     """
-    cycles, t = 0, signals.shape[1]
+    found, t = 0, signals.shape[1]
     for row in range(signals.shape[0]):
-        s, first, before = signals[row], 0, cycles
+        first, last = 0, t
         if recurs and t > 0:
-            first = unroll(s, path)
-            reversals = turning_points(path, step, reversal)
-            cycles = close_cycles(path, reversals, True, reversal, start, end, weight, cycles)
+            first, last = unroll(signals[row], path), t + 1
         else:
-            reversals = turning_points(s, step, reversal)
-            cycles = close_cycles(s, reversals, False, reversal, start, end, weight, cycles)
-        for c in range(before, cycles):
+            for i in range(t):
+                path[i] = signals[row, i]
+        reversals = turning_points(path[:last], step, reversal)
+        cycles = close_cycles(path, reversals, recurs, reversal, start[found:], end[found:], weight[found:])
+        for c in range(found, found + cycles):
             start[c], end[c] = (start[c] + first) % t, (end[c] + first) % t
-        number[row] = cycles - before
-    return cycles
+        number[row] = cycles
+        found += cycles
+    return found
 
 
 class Found(NamedTuple):

@@ -85,7 +85,8 @@ def _histories(stress: BlockStress, record: CountedRecord) -> Iterator[tuple[Blo
     rows = _rows_at_once(record)
     for first in range(0, len(stress), rows):
         some = stress.at(slice(first, first + rows))
-        yield some, (stress_history(some.membrane, record.q), stress_history(some.bending, record.q))
+        both = stress_history(np.concatenate([some.membrane, some.bending]), record.q)  # a record on disk is read once
+        yield some, (both[: len(some)], both[len(some) :])
 
 
 def _joined(counts: Sequence[BlockCount]) -> BlockCount:

@@ -41,9 +41,28 @@ class Hulls(NamedTuple):
 class Room(NamedTuple):
     """Work space for hulls of so many points."""
 
+    hull: Indices
     merged: Indices
     stack: Indices
     kept: NDArray[np.bool_]
+
+
+def room_for(points: int) -> Room:
+    """Work space for hulls of so many points."""
+    hull, merged, stack = (np.empty(points, np.int64) for _ in range(3))
+    return Room(hull, merged, stack, np.empty(points, np.bool_))
+
+
+def hulls_of(z: Floats, n: int) -> Hulls:
+    """Hulls of all whole blocks of the first n points of z (., 2)."""
+    blocks: list[int] = []
+    while (BLOCK << len(blocks)) <= n:
+        blocks.append(n // (BLOCK << len(blocks)))
+    levels = np.cumsum([0, *blocks], dtype=np.int64)
+    offsets = np.zeros(levels[-1] + 1, np.int64)
+    vertices = np.empty(len(blocks) * n, np.int64)  # pages that are not written take no memory
+    write_hulls(z, levels, offsets, vertices, *room_for(n + BLOCK))
+    return Hulls(levels, offsets, vertices)
 
 
 @compiled()
@@ -65,12 +84,11 @@ def in_order(z: Floats, i: int, end: int, points: Indices) -> int:
 
 
 @compiled()
-def hull_of(z: Floats, points: Indices, n: int, room: Room, hull: Indices) -> int:
+def hull_of(z: Floats, points: Indices, n: int, stack: Indices, kept: NDArray[np.bool_], hull: Indices) -> int:
     """Write the vertices of the hull of n ordered points, in their order, and return how many there are.
 
     Two chains from the left to the right turn one way only, the lower and the upper one (Andrew, 1979).
     """
-    stack, kept = room.stack, room.kept
     for k in range(n):
         kept[k] = False
     for side in (1.0, -1.0):
@@ -96,10 +114,19 @@ def hull_of(z: Floats, points: Indices, n: int, room: Room, hull: Indices) -> in
 
 
 @compiled()
-def merge_hulls(z: Floats, hull: Indices, n: int, other: Indices, j: int, end: int, room: Room) -> int:
+def merge_hulls(
+    z: Floats,
+    n: int,
+    other: Indices,
+    j: int,
+    end: int,
+    hull: Indices,
+    merged: Indices,
+    stack: Indices,
+    kept: NDArray[np.bool_],
+) -> int:
     """Replace n ordered points by their hull with other ones, j to ``end`` (excluded); the number of its vertices."""
-    merged, points = room.merged, n + end - j
-    i = 0
+    i, points = 0, n + end - j
     for k in range(points):
         if j == end or (i < n and not before(z, other[j], hull[i])):
             merged[k] = hull[i]
@@ -107,49 +134,43 @@ def merge_hulls(z: Floats, hull: Indices, n: int, other: Indices, j: int, end: i
         else:
             merged[k] = other[j]
             j += 1
-    return hull_of(z, merged, points, room, hull)
+    return hull_of(z, merged, points, stack, kept, hull)
 
 
 @compiled()
-def hulls_of(z: Floats, n: int, room: Room) -> Hulls:
-    """Hulls of all whole blocks of the first n points of z (., 2)."""
-    levels = 0
-    while (BLOCK << levels) <= n:
-        levels += 1
-    first = np.zeros(levels + 1, np.int64)
-    for level in range(levels):
-        first[level + 1] = first[level] + n // (BLOCK << level)
-    offsets = np.zeros(first[levels] + 1, np.int64)
-    vertices = np.empty(n + BLOCK, np.int64)
-    hull = np.empty(n + BLOCK, np.int64)
-    for level in range(levels):
-        for k in range(n // (BLOCK << level)):
-            block = first[level] + k
+def write_hulls(
+    z: Floats,
+    levels: Indices,
+    offsets: Indices,
+    vertices: Indices,
+    hull: Indices,
+    merged: Indices,
+    stack: Indices,
+    kept: NDArray[np.bool_],
+) -> None:
+    """Write the hulls of the blocks of all levels, block by block; each of two blocks of the level below."""
+    for level in range(levels.size - 1):
+        for k in range(levels[level + 1] - levels[level]):
+            block = levels[level] + k
             if level == 0:
-                found = hull_of(z, hull, in_order(z, k * BLOCK, (k + 1) * BLOCK, hull), room, hull)
+                found = in_order(z, k * BLOCK, (k + 1) * BLOCK, merged)
+                found = hull_of(z, merged, found, stack, kept, hull)
             else:
-                child = first[level - 1] + 2 * k
+                child = levels[level - 1] + 2 * k
                 left, middle, right = offsets[child], offsets[child + 1], offsets[child + 2]
                 for v in range(left, middle):
                     hull[v - left] = vertices[v]
-                found = merge_hulls(z, hull, middle - left, vertices, middle, right, room)
-            start = offsets[block]
-            if start + found > vertices.size:
-                grown = np.empty(2 * vertices.size + found, np.int64)
-                for v in range(start):
-                    grown[v] = vertices[v]
-                vertices = grown
+                found = merge_hulls(z, middle - left, vertices, middle, right, hull, merged, stack, kept)
             for v in range(found):
-                vertices[start + v] = hull[v]
-            offsets[block + 1] = start + found
-    return Hulls(first, offsets, vertices)
+                vertices[offsets[block] + v] = hull[v]
+            offsets[block + 1] = offsets[block] + found
 
 
 @compiled()
-def largest_block(hulls: Hulls, i: int, end: int) -> int:
+def largest_block(levels: Indices, i: int, end: int) -> int:
     """Level of the largest block that begins at sample i and ends before ``end``; -1: there is none."""
     level = -1
-    while level + 2 < hulls.levels.size and i % (BLOCK << (level + 1)) == 0 and i + (BLOCK << (level + 1)) <= end:
+    while level + 2 < levels.size and i % (BLOCK << (level + 1)) == 0 and i + (BLOCK << (level + 1)) <= end:
         level += 1
     return level
 
@@ -165,16 +186,26 @@ def reaches(z: Floats, i: int, points: Indices, n: int, square: float) -> bool:
 
 
 @compiled()
-def first_reaching(z: Floats, hulls: Hulls, points: Indices, n: int, i: int, end: int, square: float) -> int:
+def first_reaching(
+    z: Floats,
+    levels: Indices,
+    offsets: Indices,
+    vertices: Indices,
+    points: Indices,
+    n: int,
+    i: int,
+    end: int,
+    square: float,
+) -> int:
     """First of the samples i to ``end`` (excluded) that ``reaches`` one of n points, or ``end``."""
     in_doubt = (1.0 - DOUBT) * square
     while i < end:
-        level = largest_block(hulls, i, end)
+        level = largest_block(levels, i, end)
         while level >= 0:
-            block = hulls.levels[level] + i // (BLOCK << level)
+            block = levels[level] + i // (BLOCK << level)
             far = False
-            for k in range(hulls.offsets[block], hulls.offsets[block + 1]):
-                if reaches(z, hulls.vertices[k], points, n, in_doubt):
+            for k in range(offsets[block], offsets[block + 1]):
+                if reaches(z, vertices[k], points, n, in_doubt):
                     far = True
                     break
             if not far:

@@ -14,6 +14,7 @@ point of such a pair only where a vertex of its own hull is one, or nearly. The 
 partner before it, that one would have come first.
 """
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -29,6 +30,7 @@ from fatigue.life.path.hulls import (
     largest_block,
     merge_hulls,
     reaches,
+    room_for,
 )
 
 Floats = NDArray[np.float64]
@@ -36,54 +38,52 @@ Indices = NDArray[np.int64]
 
 TIE = 1e-9  # of the square of the largest distance
 FEW = 16  # points up to which all pairs are looked at
-PAIRS = 32  # that may be looked at for each sample, before hulls are made
+PAIRS = 256  # that may be looked at for each sample, before hulls are made, whose loops take two seconds to compile
 SHORT = 256  # samples, below which hulls are not asked
 ARC = 16  # vertices of a hull in one box
 
 
-class Pair(NamedTuple):
-    """Two points of a path by their indices, the earlier one first, and the square of the largest distance."""
-
-    p: int
-    q: int
-    square: float
-
-
 class Search(NamedTuple):
-    """Hulls of the blocks of a path in the plane, and work space."""
+    """Work space of a search by hulls in a path."""
 
-    hulls: Hulls
     room: Room
-    hull: Indices
     ring: Indices
     boxes: Floats
     is_far: NDArray[np.bool_]
 
 
 def search_in(z: Floats) -> Search:
-    """Prepare searches in a path z (n + 2, dimensions); without hulls."""
+    """Prepare searches by hulls in a path z (n + 2, dimensions)."""
     points = len(z) + BLOCK
-    room = Room(np.empty(points, np.int64), np.empty(points, np.int64), np.empty(points, np.bool_))
-    none = Hulls(np.zeros(1, np.int64), np.zeros(1, np.int64), np.zeros(0, np.int64))
-    hull, ring = np.empty(points, np.int64), np.empty(points, np.int64)
-    return Search(none, room, hull, ring, np.empty((points // ARC + 1, 4)), np.empty(points, np.bool_))
+    ring, boxes = np.empty(points, np.int64), np.empty((points // ARC + 1, 4))
+    return Search(room_for(points), ring, boxes, np.empty(points, np.bool_))
 
 
 @compiled()
-def most_distant(z: Floats, search: Search, i: int, end: int, patient: bool) -> tuple[Pair, bool]:
+def most_distant(z: Floats, i: int, end: int, patient: bool, far: Indices, centre: Floats) -> tuple[int, int, float]:
     """Most distant pair of the first point, the samples i to ``end`` (excluded) and the last point of a part.
 
     The rows n and n + 1 of z (n + 2, dimensions) are the first and the last point, those before them the samples.
-    Returned is also whether it is found: not where too many points are far from one another for a search without
-    hulls, nor in a long part if the search is not ``patient``. In space it is always found.
+    Returned are the rows of both points, the earlier one first, and the square of the largest distance. The first is
+    -1 where the pair is not found: where too many points are far from one another for a search without hulls, and in a
+    long part if the search is not ``patient``. In space it is always found. ``far`` (n + 2,) and
+    ``centre`` (dimensions,) are work space.
     """
     plane = z.shape[1] == 2
     if plane and not patient and end - i >= SHORT:
-        return Pair(0, 0, 0.0), False
-    far = far_points(z, search.hull, i, end)
-    if plane and far > FEW and far * far > PAIRS * (end - i):
-        return Pair(0, 0, 0.0), False
-    return first_pair(z, search.hull, far), True
+        return -1, -1, 0.0
+    count = far_points(z, far, centre, i, end)
+    if plane and count > FEW and count * count > PAIRS * (end - i):
+        return -1, -1, 0.0
+    largest = 0.0
+    for j in range(count):
+        for k in range(j + 1, count):
+            largest = max(largest, square_between(z, far[j], far[k]))
+    for j in range(count):
+        for k in range(j + 1, count):
+            if square_between(z, far[j], far[k]) >= (1.0 - TIE) * largest:
+                return far[j], far[k], largest
+    return far[0], far[count - 1], largest
 
 
 @compiled()
@@ -107,20 +107,20 @@ def square_between(z: Floats, p: int, q: int) -> float:
 
 
 @compiled()
-def farthest(z: Floats, centre: Floats, i: int, end: int) -> tuple[int, float]:
-    """Row of the point of a part that is farthest from a place, and the square of its distance."""
+def farthest(z: Floats, place: Floats, i: int, end: int) -> int:
+    """Row of the point of a part that is farthest from a place."""
     n = len(z) - 2
     far, largest = n, -1.0
     for k in range(i, end + 2):
         row = k if k < end else n + k - end
-        square = square_from(z, centre, row)
+        square = square_from(z, place, row)
         if square > largest:
             far, largest = row, square
-    return far, largest
+    return far
 
 
 @compiled()
-def far_points(z: Floats, far: Indices, i: int, end: int) -> int:
+def far_points(z: Floats, far: Indices, centre: Floats, i: int, end: int) -> int:
     """Write the points of a part that may be in its most distant pair, in their order, and return how many there are.
 
     Seen from the middle of two points that are far from one another, two points nearer in sum than these are not it.
@@ -128,86 +128,81 @@ def far_points(z: Floats, far: Indices, i: int, end: int) -> int:
     n = len(z) - 2
     nearest = -1.0
     if end - i > FEW:
-        one, _ = farthest(z, z[n], i, end)
-        other, square = farthest(z, z[one], i, end)
-        centre = 0.5 * (z[one] + z[other])
-        _, widest = farthest(z, centre, i, end)
-        least = np.sqrt(square) * (1.0 - 2.0 * TIE) - np.sqrt(widest)
+        one = farthest(z, z[n], i, end)
+        other = farthest(z, z[one], i, end)
+        for axis in range(z.shape[1]):
+            centre[axis] = 0.5 * (z[one, axis] + z[other, axis])
+        widest = square_from(z, centre, farthest(z, centre, i, end))
+        least = math.sqrt(square_between(z, one, other)) * (1.0 - 2.0 * TIE) - math.sqrt(widest)
         nearest = least * least if least > 0.0 else -1.0
-    else:
-        centre = z[n]
     found = 0
     for k in range(i - 1, end + 1):
         row = k if i <= k < end else (n if k < i else n + 1)
-        if square_from(z, centre, row) >= nearest:
+        if nearest < 0.0 or square_from(z, centre, row) >= nearest:
             far[found] = row
             found += 1
     return found
 
 
-@compiled()
-def first_pair(z: Floats, points: Indices, count: int) -> Pair:
-    """Most distant pair of points in their order, by the definition."""
-    largest = 0.0
-    for j in range(count):
-        for k in range(j + 1, count):
-            largest = max(largest, square_between(z, points[j], points[k]))
-    for j in range(count):
-        for k in range(j + 1, count):
-            if square_between(z, points[j], points[k]) >= (1.0 - TIE) * largest:
-                return Pair(points[j], points[k], largest)
-    return Pair(points[0], points[count - 1], largest)
-
-
-@compiled()
-def by_hull(z: Floats, search: Search, i: int, end: int) -> Pair:
-    """Most distant pair of a part in the plane."""
-    n = len(z) - 2
-    h = hull_of_part(z, search, i, end)
-    largest, apexes = far_vertices(z, search, h)
+def by_hull(z: Floats, hulls: Hulls, search: Search, i: int, end: int) -> tuple[int, int, float]:
+    """Most distant pair of a part in the plane, as ``most_distant`` returns it."""
+    n, (hull, merged, stack, kept) = len(z) - 2, search.room
+    h = hull_of_part(z, *hulls, search.ring, hull, merged, stack, kept, i, end)
+    lay_round(z, hull, h, search.ring)
+    largest, apexes = far_vertices(z, search.ring, h, search.boxes, search.is_far, hull)
     enough = (1.0 - TIE) * largest
-    apex = search.hull  # the hull is not needed any more
     p = n
-    if not reaches(z, n, apex, apexes, enough):
-        p = first_reaching(z, search.hulls, apex, apexes, i, end, enough)
-    apexes = in_order(z, p, p + 1, apex)
-    q = first_reaching(z, search.hulls, apex, apexes, i if p == n else p + 1, end, enough)
-    return Pair(p, q if q < end else n + 1, largest)
+    if not reaches(z, n, hull, apexes, enough):
+        p = first_reaching(z, *hulls, hull, apexes, i, end, enough)
+    hull[0] = p  # the apexes are not needed any more
+    q = first_reaching(z, *hulls, hull, 1, i if p == n else p + 1, end, enough)
+    return p, q if q < end else n + 1, largest
 
 
 @compiled()
-def hull_of_part(z: Floats, search: Search, i: int, end: int) -> int:
-    """Write the hull of a part into ``search.hull`` and return how many vertices it has."""
+def hull_of_part(
+    z: Floats,
+    levels: Indices,
+    offsets: Indices,
+    vertices: Indices,
+    ring: Indices,
+    hull: Indices,
+    merged: Indices,
+    stack: Indices,
+    kept: NDArray[np.bool_],
+    i: int,
+    end: int,
+) -> int:
+    """Write the hull of a part into ``hull`` and return how many vertices it has."""
     n = len(z) - 2
-    hulls, hull = search.hulls, search.hull
     h = in_order(z, n, n + 2, hull)
     while i < end:
-        level = largest_block(hulls, i, end)
+        level = largest_block(levels, i, end)
         if level >= 0:
-            block, following = hulls.levels[level] + i // (BLOCK << level), i + (BLOCK << level)
-            points, first, after = hulls.vertices, hulls.offsets[block], hulls.offsets[block + 1]
+            block, following = levels[level] + i // (BLOCK << level), i + (BLOCK << level)
+            points, first, after = vertices, offsets[block], offsets[block + 1]
         else:
             following = min(end, (i // BLOCK + 1) * BLOCK)
-            points, first, after = search.ring, 0, in_order(z, i, following, search.ring)
-        h = merge_hulls(z, hull, h, points, first, after, search.room)
+            points, first, after = ring, 0, in_order(z, i, following, ring)
+        h = merge_hulls(z, h, points, first, after, hull, merged, stack, kept)
         i = following
     return h
 
 
 @compiled()
-def far_vertices(z: Floats, search: Search, h: int) -> tuple[float, int]:
+def far_vertices(
+    z: Floats, ring: Indices, h: int, boxes: Floats, is_far: NDArray[np.bool_], apex: Indices
+) -> tuple[float, int]:
     """Square of the largest distance of h vertices of a hull, and how many vertices are in a pair that ties with it.
 
-    These are written to ``search.hull``. Once round the hull, ``ARC`` vertices at a time lie in a small box; two boxes
-    are looked into only where their far corners are far enough apart.
+    The vertices are given once round the hull; those found are written to ``apex``. ``ARC`` vertices at a time lie in a
+    small box; two boxes are looked into only where their far corners are far enough apart.
     """
-    ring, boxes, is_far = search.ring, search.boxes, search.is_far
-    lay_round(z, search.hull, h, ring)
     arcs = (h + ARC - 1) // ARC
     for arc in range(arcs):
         box = boxes[arc]
-        box[0] = box[1] = np.inf
-        box[2] = box[3] = -np.inf
+        box[0] = box[1] = math.inf
+        box[2] = box[3] = -math.inf
         for k in range(arc * ARC, min(h, (arc + 1) * ARC)):
             x, y = z[ring[k], 0], z[ring[k], 1]
             box[0], box[1], box[2], box[3] = min(box[0], x), min(box[1], y), max(box[2], x), max(box[3], y)
@@ -231,7 +226,7 @@ def far_vertices(z: Floats, search: Search, h: int) -> tuple[float, int]:
     apexes = 0
     for k in range(h):
         if is_far[k]:
-            search.hull[apexes] = ring[k]
+            apex[apexes] = ring[k]
             apexes += 1
     return largest, apexes
 

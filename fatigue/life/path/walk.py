@@ -4,30 +4,28 @@ A part of the path waits until its turn comes, so that nothing is nested, howeve
 piece of the real part is passed once in all; an excursion is jumped over by the hulls of its blocks, if they were made.
 """
 
+import math
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fatigue.compiled import compiled
-from fatigue.life.path.hulls import first_reaching, hulls_of, in_order
-from fatigue.life.path.most_distant import Pair, Search, by_hull, most_distant, search_in, square_between
+from fatigue.life.path.hulls import Hulls, first_reaching, hulls_of
+from fatigue.life.path.most_distant import by_hull, most_distant, search_in, square_between
 
 Floats = NDArray[np.float64]
+Indices = NDArray[np.int64]
 
 SMALL = 1e-9  # of the largest distance of the record; shorter half cycles are dropped
 AT_END = 1e-12  # an excursion that ends this close behind a sample, over its segment, ends at the sample
 DOUBT = 1e-11  # samples that miss the distance by this much of its square are looked at
 NOWHERE = -1.0
-UNKNOWN = Pair(-1, -1, 0.0)
+UNKNOWN = -1, -1, 0.0
 PATIENCE = 16  # times that every sample is looked at, on average, before hulls are made
-
-
-class Rows(NamedTuple):
-    """A table that grows: its rows, and how many of them are used."""
-
-    values: Floats
-    used: int
+NO_HULLS = Hulls(np.zeros(1, np.int64), np.zeros(1, np.int64), np.zeros(0, np.int64))
+ROOM = 4  # rows of what waits that a part may need beside one for each of its samples
+DONE, NEEDS_HULLS, NEEDS_ROOM = 0, 1, 2  # what a walk ends with
 
 
 class Path(NamedTuple):
@@ -36,43 +34,20 @@ class Path(NamedTuple):
     Attributes
     ----------
     z : (n + 2, dimensions) its points, and work space
-    search : in these points
-    found, waiting : half cycles, and parts by their two ends
-    smallest : square of the range up to which half cycles are dropped
-    looked_at : samples of all searches
-    first : sample from which it recurs
-    recurs : whether only that sample is asked for
+    found : (h, 5) half cycles
+    waiting : (w, 2) parts of it that wait, by their two ends
+    used : (2,) rows of both that are used
+    seen : (2,) square of the range up to which half cycles are dropped; samples of all searches
+    far, centre : (n + 2,) and (dimensions,) work space
     """
 
     z: Floats
-    search: Search
-    found: Rows
-    waiting: Rows
-    smallest: float
-    looked_at: float
-    first: int
-    recurs: bool
-
-
-@compiled()
-def with_row(rows: Rows, row: tuple[float, ...]) -> Rows:
-    """The table with one row more."""
-    values, used = rows
-    if used == len(values):
-        grown = np.empty((2 * len(values), values.shape[1]))
-        for i in range(used):
-            for k in range(values.shape[1]):
-                grown[i, k] = values[i, k]
-        values = grown
-    for k in range(values.shape[1]):
-        values[used, k] = row[k]
-    return Rows(values, used + 1)
-
-
-@compiled()
-def with_part(waiting: Rows, start: float, end: float) -> Rows:
-    """What waits with a part more, unless it is empty."""
-    return with_row(waiting, (start, end)) if end > start else waiting
+    found: Floats
+    waiting: Floats
+    used: Indices
+    seen: Floats
+    far: Indices
+    centre: Floats
 
 
 def half_cycles(z: Floats, recurs: bool) -> tuple[Floats, int]:
@@ -83,74 +58,112 @@ def half_cycles(z: Floats, recurs: bool) -> tuple[Floats, int]:
     part needs them.
     """
     first, n = 0, len(z) - 2
-    if recurs:
-        first = _walked_by_hulls(_begun(z, recurs)).first
+    if recurs and n > 1:
+        first = _first(z)
         z = np.concatenate([z[first:n], z[: first + 1], z[n:]])
-    found = _walked_by_hulls(_begun(z, recurs=False)).found
-    return found.values[: found.used], first
+    return _walked_by_hulls(_begun(z)), first
 
 
-def _begun(z: Floats, recurs: bool) -> Path:
+def _first(z: Floats) -> int:
+    """First point of the most distant pair of a path."""
+    n = len(z) - 2
+    z[n], z[n + 1] = z[0], z[n - 1]
+    p, _, _ = most_distant(z, 1, n - 1, True, np.empty(n + 2, np.int64), np.zeros(z.shape[1]))
+    if p < 0:
+        p, _, _ = by_hull(z, hulls_of(z, n), search_in(z), 1, n - 1)
+    return 0 if p == n else int(p)
+
+
+def _begun(z: Floats) -> Path:
     """A path of which nothing is known, all of it one part."""
     n = len(z) - 2
-    found, waiting = Rows(np.empty((n + 2, 5)), 0), Rows(np.array([[0.0, n - 1.0]]), int(n > 1))
-    return Path(z, search_in(z), found, waiting, 0.0, 0.0, 0, recurs)
+    found, waiting, used = np.empty((n + 2, 5)), np.empty((n + ROOM, 2)), np.array([0, int(n > 1)])
+    waiting[0] = 0.0, n - 1.0
+    return Path(z, found, waiting, used, np.zeros(2), np.empty(n + 2, np.int64), np.zeros(z.shape[1]))
 
 
-def _walked_by_hulls(path: Path) -> Path:
-    """A path walked to its end, with hulls for the parts that need them."""
-    path = walked(path, UNKNOWN)
-    while path.waiting.used > 0:
-        z, search = path.z, path.search
-        if search.hulls.vertices.size == 0:
-            search = search._replace(hulls=hulls_of(z, len(z) - 2, search.room))
-        start, end = path.waiting.values[path.waiting.used - 1]
-        pair = by_hull(z, search, int(np.floor(start)) + 1, int(np.ceil(end)))
-        path = walked(path._replace(search=search), pair)
-    return path
+def _walked_by_hulls(path: Path) -> Floats:
+    """Half cycles of a path walked to its end, with hulls for the parts that need them."""
+    z, found, waiting, used, *_ = path
+    hulls, search, known = NO_HULLS, search_in(z), UNKNOWN
+    while (state := walked(*path, *hulls, *known)) != DONE:
+        known = UNKNOWN
+        if state == NEEDS_ROOM:
+            found, waiting = (np.concatenate([rows, np.empty_like(rows)]) for rows in (found, waiting))
+            path = path._replace(found=found, waiting=waiting)
+            continue
+        if hulls is NO_HULLS:
+            hulls = hulls_of(z, len(z) - 2)
+        start, end = waiting[used[1] - 1]
+        known = by_hull(z, hulls, search, math.floor(start) + 1, math.ceil(end))
+    return found[: used[0]]
 
 
 @compiled()
-def walked(path: Path, known: Pair) -> Path:
-    """A path walked to its end, or until the part that waits last needs hulls for its most distant pair.
+def walked(
+    z: Floats,
+    found: Floats,
+    waiting: Floats,
+    used: Indices,
+    seen: Floats,
+    far: Indices,
+    centre: Floats,
+    levels: Indices,
+    offsets: Indices,
+    vertices: Indices,
+    p: int,
+    q: int,
+    square: float,
+) -> int:
+    """Walk a path to its end, or until the part that waits last needs hulls for its most distant pair, or more room.
 
-    ``known`` is the pair of the part that waits last, or ``UNKNOWN``. Of a path that recurs only that pair is found.
+    ``p``, ``q`` and ``square`` are the pair of the part that waits last, or ``UNKNOWN``.
     """
-    z, search, found, waiting, smallest, looked_at, first, recurs = path
     n = len(z) - 2
-    while waiting.used > 0:
-        start, end = waiting.values[waiting.used - 1, 0], waiting.values[waiting.used - 1, 1]
+    while used[1] > 0:
+        part = used[1] - 1
+        start, end = waiting[part, 0], waiting[part, 1]
+        i, after = math.floor(start) + 1, math.ceil(end)
+        if used[0] == len(found) or part + after - i + ROOM > len(waiting):
+            return NEEDS_ROOM
         place(z, n, start)
         place(z, n + 1, end)
-        i, after = int(np.floor(start)) + 1, int(np.ceil(end))
-        pair, is_found = known, known.p >= 0
-        if not is_found:
-            looked_at += end - start
-            pair, is_found = most_distant(z, search, i, after, looked_at <= PATIENCE * n)
-        if not is_found:
-            break
-        known = Pair(-1, -1, 0.0)
-        waiting = Rows(waiting.values, waiting.used - 1)
-        if recurs:
-            first = 0 if pair.p == n else pair.p
-            break
-        if pair.square <= smallest:
-            continue
-        if found.used == 0:
-            smallest = SMALL * SMALL * pair.square
-        t_p = start if pair.p == n else float(pair.p)
-        t_q = end if pair.q == n + 1 else float(pair.q)
-        waiting = with_part(with_part(waiting, start, t_p), t_q, end)
-        length, area, waiting = walk(z, search, pair, i, after, t_p, t_q, waiting)
-        square = square_between(z, pair.p, pair.q)
-        found = with_row(found, (t_p, t_q, np.sqrt(square), length, area / (0.25 * np.pi * square)))
-    return Path(z, search, found, waiting, smallest, looked_at, first, recurs)
+        if p < 0:
+            seen[1] += end - start
+            p, q, square = most_distant(z, i, after, seen[1] <= PATIENCE * n, far, centre)
+            if p < 0:
+                return NEEDS_HULLS
+        used[1] = part
+        if square > seen[0]:
+            if used[0] == 0:
+                seen[0] = SMALL * SMALL * square
+            t_p = start if p == n else float(p)
+            t_q = end if q == n + 1 else float(q)
+            used[1] = put_part(waiting, put_part(waiting, part, start, t_p), t_q, end)
+            ends = t_p, t_q
+            length, area = walk(z, levels, offsets, vertices, far, p, q, i, after, ends, waiting, used)
+            square = square_between(z, p, q)
+            row = found[used[0]]
+            row[0], row[1], row[2], row[3] = t_p, t_q, math.sqrt(square), length
+            row[4] = area / (0.25 * math.pi * square)
+            used[0] += 1
+        p = -1
+    return DONE
+
+
+@compiled()
+def put_part(waiting: Floats, used: int, start: float, end: float) -> int:
+    """Let a part wait, unless it is empty, and return how many wait."""
+    if end <= start:
+        return used
+    waiting[used, 0], waiting[used, 1] = start, end
+    return used + 1
 
 
 @compiled()
 def place(z: Floats, row: int, t: float) -> None:
     """Write the point of a path at t, index and fraction, into a row of z."""
-    k = int(np.floor(t))
+    k = math.floor(t)
     fraction = t - k
     for axis in range(z.shape[1]):
         z[row, axis] = z[k, axis]
@@ -160,14 +173,25 @@ def place(z: Floats, row: int, t: float) -> None:
 
 @compiled()
 def walk(
-    z: Floats, search: Search, pair: Pair, first: int, after: int, t_p: float, t_q: float, waiting: Rows
-) -> tuple[float, float, Rows]:
-    """Length and area moment of the real part between two points, and the excursions added to what waits.
+    z: Floats,
+    levels: Indices,
+    offsets: Indices,
+    vertices: Indices,
+    far: Indices,
+    p: int,
+    q: int,
+    first: int,
+    after: int,
+    ends: tuple[float, float],
+    waiting: Floats,
+    used: Indices,
+) -> tuple[float, float]:
+    """Length and area moment of the real part between two points; the excursions are added to what waits.
 
     With r the distance from p: the real part is where r is as large as never before, an excursion lasts from where r
     begins to fall to where it is as large again, ``|a + u d| = rho``, in general inside a segment d.
     """
-    n, p, q = len(z) - 2, pair.p, pair.q
+    n, t_p, t_q = len(z) - 2, ends[0], ends[1]
     stop = after if q == n + 1 else q
     length = area = square = 0.0  # square: rho^2
     left = NOWHERE  # where the excursion began
@@ -178,25 +202,31 @@ def walk(
         b, t_b = (q, t_q) if last else (following, float(following))
         aa, ad, dd = products(z, p, a, b)
         if left == NOWHERE and ad >= 0.0:
-            length += np.sqrt(dd)
+            length += math.sqrt(dd)
             area += moment(z, p, a, b)
         elif dd > 0.0:
             if left == NOWHERE:
                 left, square = t_a, aa
                 u = -2.0 * ad / dd
             else:
-                u = (-ad + np.sqrt(max(ad * ad - dd * (aa - square), 0.0))) / dd
+                u = (-ad + math.sqrt(max(ad * ad - dd * (aa - square), 0.0))) / dd
             if u <= 1.0 + AT_END or last:
                 u = min(u, 1.0)
-                waiting = with_part(waiting, left, t_a + u * (t_b - t_a))
+                used[1] = put_part(waiting, used[1], left, t_a + u * (t_b - t_a))
                 left = NOWHERE
-                length += (1.0 - u) * np.sqrt(dd)
+                length += (1.0 - u) * math.sqrt(dd)
                 area += (1.0 - u) * moment(z, p, a, b)
         if last:
-            return length, area, waiting
+            return length, area
         a, following = b, following + 1
         if left != NOWHERE:
-            following = first_far(z, search, p, following, stop, (1.0 - DOUBT) * square)
+            enough = (1.0 - DOUBT) * square
+            if z.shape[1] == 2:
+                far[0] = p
+                following = first_reaching(z, levels, offsets, vertices, far, 1, following, stop, enough)
+            else:
+                while following < stop and square_between(z, p, following) < enough:
+                    following += 1
             a = following - 1
         t_a = float(a)
 
@@ -214,17 +244,6 @@ def products(z: Floats, p: int, a: int, b: int) -> tuple[float, float, float]:
 
 
 @compiled()
-def first_far(z: Floats, search: Search, p: int, i: int, stop: int, square: float) -> int:
-    """First of the samples i to ``stop`` (excluded) that is at least so far from p, or ``stop``."""
-    if z.shape[1] == 2:
-        only = search.hull
-        return first_reaching(z, search.hulls, only, in_order(z, p, p + 1, only), i, stop, square)
-    while i < stop and square_between(z, p, i) < square:
-        i += 1
-    return i
-
-
-@compiled()
 def moment(z: Floats, p: int, a: int, b: int) -> float:
     """Area of the parallelogram of two points, seen from p: ``|a x b| = |a x (b - a)|``."""
     square = 0.0
@@ -232,4 +251,4 @@ def moment(z: Floats, p: int, a: int, b: int) -> float:
         for j in range(i + 1, z.shape[1]):
             part = (z[a, i] - z[p, i]) * (z[b, j] - z[a, j]) - (z[a, j] - z[p, j]) * (z[b, i] - z[a, i])
             square += part * part
-    return float(np.sqrt(square))
+    return float(math.sqrt(square))
