@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 
 import numpy as np
+import pandas as pd
 from numpy.typing import NDArray
 
 from fatigue.life.curves import DamageLaw
@@ -90,16 +91,21 @@ def exceedance(cycles: ResultTable, passes_per_km: Mapping[str, float], most: in
     ``cycles`` has the columns of the table of cycles; ``most`` events, those with the largest ranges, are drawn.
     """
     cycles = frame_of(cycles, "cycles", ("event", "range_MPa", "count"))
-    check_known(cycles["event"], passes_per_km, "passes_per_km", "event")
+    check_known(cycles["event"].unique(), passes_per_km, "passes_per_km", "event")
     colours = event_colours(list(passes_per_km))
-    ranges, event = cycles["range_MPa"].to_numpy(), cycles["event"].to_numpy()
-    count = 1e6 * cycles["event"].map(passes_per_km).to_numpy(dtype=np.float64) * cycles["count"].to_numpy()
-    largest = cycles.groupby("event", sort=False)["range_MPa"].max().sort_values(ascending=False, kind="stable")
+    ranges = cycles["range_MPa"].to_numpy()
+    codes, events = pd.factorize(cycles["event"])
+    passes = np.array([passes_per_km[event] for event in events])
+    count = 1e6 * passes[codes] * cycles["count"].to_numpy()
+    largest = np.full(len(events), -np.inf)
+    np.maximum.at(largest, codes, ranges)
+    event = {events[code]: codes == code for code in np.argsort(-largest, kind="stable")[:most]}
     data = [_stairs(ranges, count, "mission", INK, 2.2)]
-    for name in (name for name in passes_per_km if name in set(largest.index[:most])):
-        if (count[event == name] < 0.0).any():  # a sequence: a difference, which is in the line of the mission
+    for name in (name for name in passes_per_km if name in event):
+        at = event[name]
+        if (count[at] < 0.0).any():  # a sequence: a difference, which is in the line of the mission
             continue
-        data.append(_stairs(ranges[event == name], count[event == name], in_figure(name), colours[name], 1.4))
+        data.append(_stairs(ranges[at], count[at], in_figure(name), colours[name], 1.4))
     text = f"largest {number(ranges.max())} MPa<br>{number(count.sum())} cycles in 1e6 km"
     reached = [float(d["x"][0]) for d in data if len(d["x"]) and d["x"][0] > 0.0]
     x = log_axis(

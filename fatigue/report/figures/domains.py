@@ -168,7 +168,7 @@ def damage_by_method(damage: ResultTable, passes_per_km: Mapping[str, float], mo
     have nothing of them. ``most`` events are drawn, those that damage most; together are all of them.
     """
     damage = frame_of(damage, "damage", ("event", *METHODS.values()))
-    check_known(damage["event"], passes_per_km, "passes_per_km", "event")
+    check_known(damage["event"].unique(), passes_per_km, "passes_per_km", "event")
     events = damage[damage[list(METHODS.values())].notna().all(axis=1)]
     weights = events["event"].map(passes_per_km).astype(float)
     per_km = events[list(METHODS.values())].astype(float).mul(weights, axis=0)

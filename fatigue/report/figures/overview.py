@@ -108,7 +108,8 @@ def weld_strips(nodes: ResultTable, target_km: float, most: int = 60) -> Figure:
     toes = nodes[nodes["toe"]]
     worst = toes.groupby("weld", sort=False)["utilisation"].max()
     shown = worst.sort_values(ascending=False, kind="stable").index[:most]
-    of_weld = dict(list(toes[toes["weld"].isin(shown)].groupby("weld", sort=False)))
+    places = toes[toes["weld"].isin(shown)].groupby(["weld", "part", "order", "arc_length_mm"], sort=False)
+    of_weld = dict(list(places["life_km"].min().reset_index().groupby("weld", sort=False)))
     strips = np.stack([_strip(of_weld[weld]) for weld in shown])
     scale = life_scale(target_km)
     data = [
@@ -210,9 +211,8 @@ def shares(labels: Sequence[str], values: NDArray[np.float64], title: str) -> Fi
     )
 
 
-def _strip(points: pd.DataFrame) -> NDArray[np.float64]:
-    """Shortest life in each cell of one weld line; empty cells take the life of the nearest node."""
-    worst = points.groupby(["part", "order", "arc_length_mm"], sort=False)["life_km"].min().reset_index()
+def _strip(worst: pd.DataFrame) -> NDArray[np.float64]:
+    """Shortest life in each cell of one weld line, of that at its places; empty cells take that of the nearest."""
     lengths = worst.groupby("part")["arc_length_mm"].max()
     begins = (lengths.cumsum() - lengths).reindex(worst["part"]).to_numpy()
     place = (worst["arc_length_mm"].to_numpy() + begins) / max(lengths.sum(), 1e-9)
