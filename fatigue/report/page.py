@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+from threadpoolctl import threadpool_limits
 
 from fatigue.errors import DataError, Problem, given_path
 from fatigue.files.mishaps import refused_writing
@@ -174,7 +175,8 @@ def _details(
 ) -> tuple[dict[str, Detail], dict[str, float]]:
     """What the records say of each detailed weld, and the step of each record; or a note why not."""
     try:
-        return weld_details(result, inputs)
+        with threadpool_limits(limits=1, user_api="blas"):  # products are small, and the same on any processor
+            return weld_details(result, inputs)
     except DataError as error:
         missing += error.problems
         return {}, {}

@@ -21,7 +21,7 @@ def page_text(room: str, template: str, context: Mapping[str, Any], figs: Figure
     frame = {
         "version": __version__,
         "config": embedded(CONFIG),
-        "template": embedded(TEMPLATE.to_plotly_json()),
+        "template": embedded(TEMPLATE),
         "plotly": Markup(get_plotlyjs()) if figs.shown else "",
     }
     return environment(room, language=language).get_template(template).render({**frame, **context})

@@ -8,7 +8,6 @@ import hashlib
 import json
 import platform
 from collections.abc import Mapping, Sequence
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any, Literal, get_args
 
@@ -157,6 +156,8 @@ def input_register(paths: Sequence[Path], root: Path) -> list[dict[str, Any]]:
 
 def software_versions() -> dict[str, str]:
     """Versions of the program and of what its numbers rest on."""
+    from importlib.metadata import PackageNotFoundError, version  # noqa: PLC0415 - who only reads needs none of it
+
     packages = ("numpy", "scipy", "numba", "pyarrow", "pandas", "rainflow")
     found = {"fatigue": __version__, "python": platform.python_version()}
     for package in packages:

@@ -160,7 +160,7 @@ def test_events_without_bands_stay_out_of_the_picture():
     )
     bands = band_shares(Why(**dict.fromkeys(Why.__dataclass_fields__, attribution)))
     assert bands["share"].tolist() == pytest.approx([0.2, 0.5, 0.2])
-    assert len(figures.damage_by_band(bands).data[0].x) == 3
+    assert len(figures.damage_by_band(bands).plotly().data[0].x) == 3
 
 
 def test_a_diagnosis_of_an_older_version_has_no_unit_loads(diagnosed, tmp_path):
