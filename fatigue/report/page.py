@@ -29,6 +29,8 @@ from fatigue.report.sections.checks import recomputed
 from fatigue.report.sections.curves import curve_sections, figure_mark, marked, of_toes
 from fatigue.report.sections.details import weld_details
 from fatigue.report.sections.embed import Figures
+from fatigue.report.sections.evidence.section import SIGNS, WORDS, evidence
+from fatigue.report.sections.evidence.warnings import grouped
 from fatigue.report.sections.formation.section import formation_section
 from fatigue.report.sections.load_spectra import read_load_spectra, spectra_warnings, spectra_words
 from fatigue.report.sections.point.detail import Detail
@@ -39,14 +41,13 @@ from fatigue.report.sections.transitions import transitions
 from fatigue.report.sections.unit_loads import load_table
 from fatigue.report.sections.weld import weld_page
 from fatigue.report.sections.why import read_why
-from fatigue.results import PAGE, enlist, read_provenance
+from fatigue.results import PAGE, enlist, read_provenance, row_count
 
 log = logging.getLogger(__name__)
 
 MOST_DETAILED = 40  # welds with their own figures; the others have their rows and their lines
 MOST_STATIONS = 100_000  # on the lines that are drawn; beyond, only lines of the worst welds are
 MOST_LISTED = 2000  # welds in the register of the page
-LONGEST_PLACE = 20_000  # letters of the place of a warning: a warning about many welds names them all
 WORST_POINTS = 50
 
 
@@ -111,6 +112,7 @@ def report_page(
     links = {weld: f"weld-{i}" for i, weld in enumerate(result.detailed, start=1)}
     unverified, bands = of_toes(result), bands_of(result)
     figs = Figures(mark=figure_mark(unverified, len(result.assessed)))
+    recounted = recomputed(result)
     context = {
         "title": record["title"],
         "version": record["software"]["fatigue"],
@@ -121,7 +123,7 @@ def report_page(
         **identity_section(identity, record),
         "head": _head(result),
         "assumptions": method.assumptions(record),
-        "warnings": _warnings(
+        "warnings": grouped(
             [*record["warnings"], *spectra_warnings(spectra), *ride_warnings(ridden), *shift_warnings(record)]
         ),
         **curve_sections(result),
@@ -157,7 +159,10 @@ def report_page(
         "modes": tables.mode_table(record["modes"]),
         "unit_loads": load_table(record.get("unit_loads", ())),
         "rules": method.rules(record),
-        "checks": recomputed(result),
+        "checks": recounted,
+        "evidence": evidence(result, recounted, verification),
+        "evidence_signs": SIGNS,
+        "evidence_words": WORDS,
         "verification": tables.verification_table(verification),
         "inputs": tables.input_table(record["inputs"]),
         "audit": tables.audit_table(record.get("conversion")),
@@ -199,6 +204,7 @@ def _head(result: ShownResult) -> dict[str, Any]:
         "left_out": len(result.welds) - len(welds),
         "has_candidates": any(map(tables.is_candidate, result.welds["reason"])),
         "points": result.toes,
+        "points_in_all": row_count(result.folder, "nodes"),
         "worst": welds.iloc[0],
         "load_factor": welds["load_factor"].min(),
         "undamaged": not np.isfinite(welds.iloc[0]["life_km"]),
@@ -212,18 +218,3 @@ def _listed(result: ShownResult) -> pd.DataFrame:
     """Welds of the register that have a row: the worst, and those that are not assessed."""
     listed = (np.arange(len(result.welds)) < MOST_LISTED) | (result.welds["status"] != "assessed")
     return result.welds[listed]
-
-
-def _warnings(warnings: Sequence[Mapping[str, Any]]) -> list[tuple[str, int, list[Mapping[str, Any]]]]:
-    """Warnings by their kind, the kinds in the order in which they came: code, how many, entries."""
-    groups: dict[str, list[Mapping[str, Any]]] = {}
-    for warning in warnings:
-        groups.setdefault(warning["code"], []).append({**warning, "where": _shortened(warning["where"])})
-    return [(code, sum(warning.get("count", 1) for warning in group), group) for code, group in groups.items()]
-
-
-def _shortened(place: str) -> str:
-    """Place of a warning, a long list of welds cut behind one of them."""
-    if len(place) <= LONGEST_PLACE:
-        return place
-    return f"{place[:LONGEST_PLACE].rpartition(', ')[0]} and others, see provenance.json"

@@ -235,19 +235,20 @@ def test_warnings_are_on_the_first_page_and_in_full_below(tmp_path):
     )
     words = made(tmp_path, warnings=warnings).words
     assert "and 2 more of this kind" in words
-    assert "End unresolved (3)" in words
+    assert "End unresolved (3, end_unresolved )" in words
+    assert "Mend the model" in words
     assert words.count("Refine") == 3
 
 
 def test_a_warning_that_sums_up_others_counts_for_them(tmp_path, monkeypatch):
     """Their number is in all numbers of the kind, their welds are named as far as there is room."""
-    monkeypatch.setattr("fatigue.report.page.LONGEST_PLACE", 40)
+    monkeypatch.setattr("fatigue.report.sections.evidence.warnings.LONGEST_PLACE", 40)
     one = {"code": "end_unresolved", "where": "n.csv: weld A", "what": "coarse", "remedy": "Refine", "count": 1}
     some = one | {"where": "n.csv: weld B, C", "what": "2 more of this kind", "count": 2}
     many = one | {"where": "n.csv: weld " + ", ".join(["D1"] * 10), "what": "10 more of this kind", "count": 10}
     words = made(tmp_path, warnings=(one, some, many)).words
     assert "and 12 more of this kind" in words
-    assert "End unresolved (13)" in words
+    assert "End unresolved (13, end_unresolved )" in words
     assert "n.csv: weld B, C : 2 more" in words
     assert "n.csv: weld D1, D1, D1, D1, D1, D1, D1 and others, see provenance.json : 10 more" in words
 
