@@ -93,7 +93,7 @@ def of_curve(
     """What shear adds at stations that share a curve, (n, 2); ``names`` are their welds in words."""
     found, passes = nothing_found(toes.toe.shape), passes_at_target(plan)
     first = first_tier(toes, loads, shear.extents, passes, shear.beta)
-    found["shear_required"] = shear_required(toes, first, loads)
+    found["shear_required"] = shear_required(toes, first, loads, shear.extents)
     found["bound"], found["normal"], found["asme"] = first.bound, toes.normal, toes.with_shear
     bounded = np.flatnonzero(~toes.counted & toes.toe.any(axis=1))
     if bounded.size:
