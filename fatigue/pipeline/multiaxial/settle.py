@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fatigue.life.bounds.path_bound import largest_combined_range, path_bound
+from fatigue.life.bounds.path_bound import largest_combined_range, path_bound, power_bound
 from fatigue.life.bounds.path_extent import PathExtent, least_range, path_limits
 from fatigue.life.bounds.screening import may_need_mean_stress
 from fatigue.life.rule import CycleRule
@@ -54,14 +54,21 @@ def first_tier(
 
 def second_tier(
     toes: Toes, at: tuple[NDArray[np.intp], NDArray[np.intp]], loads: Sequence[EventLoad], passes: Floats, beta: float
-) -> Floats:
-    """Bound of the sum by path range at some faces (k,), from the exact length of their paths and range of shear."""
-    total, size = toes.transitions[at].copy(), toes.stress.size[at[0]]
+) -> tuple[Floats, Floats]:
+    """Bounds of the sum by path range at some faces, (k,) each, from their paths and the exact range of shear.
+
+    The first is from the length of the paths, the second, which is closer, from higher powers along them as well.
+    """
+    total, size, rule = toes.transitions[at].copy(), toes.stress.size[at[0]], toes.stress.rule
+    closer, plain = total.copy(), replace(rule, mean_stress=False)
     for number, load in enumerate(loads):
-        path = traced(weights_of(toes.stress, *at, load), load.counted.q, load.residue, beta)
+        path = traced(weights_of(toes.stress, *at, load), load.mean, load.counted.q, load.residue, beta)
         both, mean = (path.normal_range, path.shear_range), toes.normal_mean[number][at]
-        total += passes[number] * _event_bound(path.length, both, mean, size, toes.stress.rule, beta)
-    return total
+        damage = _event_bound(path.length, both, mean, size, rule, beta)
+        by_powers = power_bound(path.length, path.integrals, np.hypot(both[0], np.sqrt(beta) * both[1]), size, plain)
+        total += passes[number] * damage
+        closer += passes[number] * np.where(np.isinf(damage), np.inf, by_powers)
+    return total, closer
 
 
 def _event_bound(
