@@ -12,6 +12,7 @@ from fatigue.check import check_case
 from fatigue.errors import CaseError, DataError
 from fatigue.pipeline.multiaxial import counted, doubt, group
 from fatigue.results import read_provenance
+from fatigue.verify.recount import recount
 from tests.shear_at_toe import shear_at_toe
 from tests.small_case import small_case
 from tests.test_sequences import LOOP, empty_and_laden
@@ -188,6 +189,32 @@ def test_screened_points_are_bounded_from_their_bounds(limit, tmp_path):
     np.testing.assert_allclose(screened.loc[left, "utilisation_asme"], exact.loc[left, "utilisation_asme"], rtol=1e-9)
     known = screened["shear_required"].notna()
     assert (screened.loc[known, "shear_required"] == exact.loc[known, "shear_required"]).all()
+
+
+@pytest.mark.parametrize("extension", ["none", "haibach"])
+def test_a_large_job_settles_points_by_the_closer_bound(extension, tmp_path, monkeypatch):
+    """What the bound by length leaves open may be settled by powers along the path: proven, and recounted."""
+    job = sheared(limit=4e3)
+    job.curve["extension"] = extension
+    case = job.write(tmp_path / "case")
+    small = nodes_of(case, tmp_path / "small", share=0.0)
+    monkeypatch.setattr("fatigue.pipeline.run.work.is_large", lambda *_: True)
+    large = nodes_of(case, tmp_path / "large", share=0.0)
+    closer = (small["multiaxial_status"] == "counted") & (large["multiaxial_status"] == "settled_passes")
+    assert closer.any()
+    assert (small.loc[closer, "multiaxial_bound"] > 1.0).all()
+    assert (large.loc[closer, "multiaxial_bound"] <= 1.0).all()
+    assert (large.loc[closer, "multiaxial_bound"] >= small.loc[closer, "utilisation_path_range"]).all()
+    assert large.loc[~closer, "multiaxial_bound"].equals(small.loc[~closer, "multiaxial_bound"])
+    for verdict in (small["multiaxial_verdict"], large["multiaxial_verdict"]):
+        assert verdict[closer].str.endswith("passes").all()
+    found = recount(tmp_path / "large", sample=None)
+    assert found.passed, found.as_text()
+    table = pd.read_parquet(tmp_path / "large" / "nodes.parquet")
+    table.loc[table["multiaxial_status"] == "settled_passes", "multiaxial_bound"] *= 0.1
+    table.to_parquet(tmp_path / "large" / "nodes.parquet")
+    wrong = recount(tmp_path / "large", sample=None)
+    assert "multiaxial_bound" in {check.column for check in wrong.columns if not check.passed}
 
 
 def test_load_factor_of_a_named_method_on_a_curve_with_a_knee_is_empty(tmp_path):

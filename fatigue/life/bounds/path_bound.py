@@ -11,11 +11,26 @@ cut-off, so
     sum 0.5 d(x_k) <= 0.5 c Lambda d(xh) / xh.
 
 It holds for the path range alone: not for path length or moment, and not where the damage contains f_M.
+
+Higher powers are closer. A half cycle from P to Q takes the pieces of the path on which the distance r from P is as
+large as never before; so r takes every value from 0 to R there once, and pieces of two half cycles never overlap. Let x
+be the path seen from any fixed point, its time mean for one. As |x| >= ||P| - r| and |dx| >= dr,
+
+    int over the pieces of q |x|^(q-1) |dx|  >=  int from 0 to R of q ||P| - r|^(q-1) dr  >=  2^(1-q) R^q,
+
+which is |P|^q + (R - |P|)^q with R >= |P|, smallest at |P| = R / 2, and |P|^q - (|P| - R)^q >= R^q else. Hence
+
+    sum 0.5 R_k^q <= 2^(q-2) int over the whole path of q |x|^(q-1) |dx|,
+
+as in ``screening`` for one stress, and Lambda / 2 for q = 1. ``screening.damage_bound`` makes a bound of the damage of
+these sums. Between two samples |x|^2 is a parabola, so q = 3 is integrated exactly; |x|^3 is convex, so q = 4 is not
+above the mean of both ends.
 """
 
 import numpy as np
 from numpy.typing import NDArray
 
+from fatigue.life.bounds.screening import PowerSums, damage_bound
 from fatigue.life.records.history import Residue
 from fatigue.life.rule import CycleRule, cycle_damage
 
@@ -59,6 +74,35 @@ def path_bound(length: Floats, xh: Floats, size: Floats, rule: CycleRule) -> Flo
     largest = np.asarray(xh) * (1.0 + ROUNDING)
     per_range = np.divide(cycle_damage(largest, rule.law), largest, out=np.zeros_like(largest), where=largest > 0.0)
     return np.asarray(0.5 * (1.0 + ROUNDING) * _largest_factor(size, rule) * length * per_range)
+
+
+def power_integrals(path: Floats) -> Floats:
+    """Integrals of ``3 |x|^2 |dx|`` and ``4 |x|^3 |dx|`` (2, ...) along paths x (2, ..., t) of two coordinates.
+
+    The latter from above.
+    """
+    square = path[0] ** 2 + path[1] ** 2
+    step = np.diff(path[0]) ** 2 + np.diff(path[1]) ** 2
+    length, cube = np.sqrt(step), square * np.sqrt(square)
+    third = length * (1.5 * (square[..., :-1] + square[..., 1:]) - 0.5 * step)
+    fourth = 2.0 * length * (cube[..., :-1] + cube[..., 1:])
+    return np.stack([third.sum(axis=-1), fourth.sum(axis=-1)])
+
+
+def power_bound(length: Floats, integrals: Floats, largest_range: Floats, size: Floats, rule: CycleRule) -> Floats:
+    """Bound the damage of one record, by path range, by the ``power_integrals`` (2, ...) of its whole path as well.
+
+    ``largest_range`` bounds the distance R of any two of its points [MPa].
+
+    Raises
+    ------
+    ValueError : the damage contains f_M, for which nothing is proven
+    """
+    if rule.mean_stress:
+        raise ValueError("the bound holds without f_M only")
+    sums: PowerSums = {1: 0.5 * length, 3: 2.0 * integrals[0], 4: 4.0 * integrals[1]}
+    raised = {q: (1.0 + ROUNDING) * power_sum for q, power_sum in sums.items()}
+    return damage_bound((1.0 + ROUNDING) * largest_range, raised, size, rule)[0]
 
 
 def _largest_factor(size: Floats, rule: CycleRule) -> Floats:

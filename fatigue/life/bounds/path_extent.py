@@ -53,12 +53,11 @@ class PathExtent:
 class PathLimits:
     """Upper bounds of the path of n points with two faces, arrays (n, 2) [MPa].
 
-    ``length`` of the path in the plane, ``shear_range``, and what the shear ranges at least, ``least_shear_range``.
+    ``length`` of the path in the plane, and ``shear_range``.
     """
 
     length: Floats
     shear_range: Floats
-    least_shear_range: Floats
 
 
 def path_extent(q: Samples, residue: Residue, covariance: Floats) -> PathExtent:
@@ -111,12 +110,15 @@ def path_limits(
     shear_length = np.sqrt(extent.steps * of_shear) * (0.5 if extent.recurs else 1.0)
     mean, gradient = (w @ extent.axes for w in shear)
     in_axes = np.stack([np.abs(mean + gradient) @ extent.ranges, np.abs(mean - gradient) @ extent.ranges], axis=1)
-    some = np.stack([shear[0] + shear[1], shear[0] - shear[1]], axis=1) @ extent.extremes
     return PathLimits(
         length=np.sqrt(extent.steps * (of_normal + beta * of_shear)) * (1.0 + ROUNDING),
         shear_range=np.minimum(in_axes, shear_length) * (1.0 + ROUNDING),
-        least_shear_range=np.ptp(some, axis=2) * (1.0 - ROUNDING),
     )
+
+
+def least_range(shear: Floats, extent: PathExtent) -> Floats:
+    """What shear stresses (k, m) [MPa per unit modal coordinate] range at least, (k,) [MPa]."""
+    return np.asarray(np.ptp(shear @ extent.extremes, axis=1) * (1.0 - ROUNDING))
 
 
 def _of_steps(mean: Floats, gradient: Floats, extent: PathExtent) -> Floats:

@@ -7,12 +7,14 @@ from numpy.typing import NDArray
 
 from fatigue.life.mission import Plan
 from fatigue.pipeline.count.block import Block
-from fatigue.pipeline.count.estimate import Estimate, estimate_event, member_variances
+from fatigue.pipeline.count.estimate import estimate_event, member_variances
 from fatigue.pipeline.count.event_block import factor_with_shear
 from fatigue.pipeline.mission.event_load import EventLoad, without_spectrum
 from fatigue.pipeline.multiaxial.toes import Toes
 
 Floats = NDArray[np.float64]
+
+AT_ONCE = 128  # stations, whose products with the covariance stay in the cache
 
 
 def asme_bound(toes: Toes, rows: NDArray[np.intp], loads: Sequence[EventLoad], passes: Floats) -> Floats:
@@ -21,10 +23,16 @@ def asme_bound(toes: Toes, rows: NDArray[np.intp], loads: Sequence[EventLoad], p
     A factor F of 1 or more on all ranges raises the damage by F^k at most, k the largest slope. A cut-off lets cycles
     in; as long as the largest stays below it there are none.
     """
+    some = (rows[first : first + AT_ONCE] for first in range(0, len(rows), AT_ONCE))
+    return np.concatenate([_asme_bound(toes, of_some, loads, passes) for of_some in some])
+
+
+def _asme_bound(toes: Toes, rows: NDArray[np.intp], loads: Sequence[EventLoad], passes: Floats) -> Floats:
     stress, law = toes.stress.at(rows), toes.stress.rule.law
     total = toes.transitions[rows].copy()
     for number, (load, weight) in enumerate(zip(loads, passes, strict=True)):
-        estimate = _estimate(toes, rows, load)
+        few = without_spectrum(load)
+        estimate = estimate_event(stress, few, member_variances(stress, few))
         factor = factor_with_shear(stress, load, estimate)
         damage = toes.of_events[number, rows] * factor ** float(law.slopes.max())
         if law.cutoff > 0.0:
@@ -46,8 +54,3 @@ def asme_counted(
         transitions = np.nan_to_num(mission.transitions)
         found[1, settled.rows] = (mission.damage_with_shear + transitions) * of_target
     return found[0], found[1]
-
-
-def _estimate(toes: Toes, rows: NDArray[np.intp], load: EventLoad) -> Estimate:
-    stress = toes.stress.at(rows)
-    return estimate_event(stress, without_spectrum(load), member_variances(stress, load))

@@ -17,7 +17,7 @@ from fatigue.pipeline.multiaxial.found import MODELS, Found, nothing_found
 
 Floats = NDArray[np.float64]
 
-SAMPLES_AT_ONCE = 250_000  # of each of the four stresses: 8 MB
+SAMPLES_AT_ONCE = 1_000_000  # of each of the four stresses: 32 MB
 LONGEST_PATH = 2_000_000  # samples of a record whose paths are counted: some 250 bytes for each
 EQUAL = 1e-9  # ranges that differ by less
 LONG_PATH = 200_000  # samples, from which on one thread counts at a time

@@ -43,6 +43,7 @@ class Shear:
     beta, alpha : weights of the square of the shear and of the path moment
     extents : how far the modal coordinates of each event move
     counted_from : utilisation from which on the worst point of a weld is counted, whatever settles it
+    is_large : a job so large that the closer bound settles a point, if it does, whose path nothing else needs
     one_at_a_time : held while the path of a long record is counted
     """
 
@@ -51,6 +52,7 @@ class Shear:
     alpha: float | None
     extents: tuple[PathExtent, ...]
     counted_from: float
+    is_large: bool = False
     one_at_a_time: AbstractContextManager[object] = field(default_factory=Lock)
 
     @property
@@ -93,7 +95,7 @@ def of_curve(
     """What shear adds at stations that share a curve, (n, 2); ``names`` are their welds in words."""
     found, passes = nothing_found(toes.toe.shape), passes_at_target(plan)
     first = first_tier(toes, loads, shear.extents, passes, shear.beta)
-    found["shear_required"] = shear_required(toes, first, loads)
+    found["shear_required"] = shear_required(toes, first, loads, shear.extents)
     found["bound"], found["normal"], found["asme"] = first.bound, toes.normal, toes.with_shear
     bounded = np.flatnonzero(~toes.counted & toes.toe.any(axis=1))
     if bounded.size:
@@ -127,7 +129,10 @@ def _settle(
     traces = left | (toes.toe & (wanted | shear.counts_all))
     at = _places(traces)
     if at[0].size:
-        found["bound"][at] = np.minimum(found["bound"][at], second_tier(toes, at, loads, passes, shear.beta))
+        bound, closer = second_tier(toes, at, loads, passes, shear.beta)
+        bound = np.minimum(found["bound"][at], bound)
+        settles = (bound > 1.0) & (closer <= 1.0) & ~wanted[at] & shear.is_large
+        found["bound"][at] = np.where(settles, closer, bound)
     rows = np.flatnonzero(left.any(axis=1) & ~toes.counted)
     if rows.size:
         found["normal"][rows], found["asme"][rows] = asme_counted(toes, rows, loads, plan, names)

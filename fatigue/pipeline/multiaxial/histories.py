@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from fatigue.life.bounds.path_bound import power_integrals
 from fatigue.life.records.history import Residue, cached_chunks, stress_chunks
 from fatigue.life.records.spool import Samples
 
@@ -17,36 +18,46 @@ IN_DOUBT = 1e-4  # of a range in single precision
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Traced:
-    """Paths of k points: their length in the plane of normal stress and weighted shear, and both ranges (k,) [MPa]."""
+    """Paths of k points: their length in the plane of normal stress and weighted shear, and both ranges (k,) [MPa].
+
+    ``integrals`` (2, k) are the ``power_integrals`` of the paths about a point of that plane [MPa^3, MPa^4].
+    """
 
     length: Floats
     normal_range: Floats
     shear_range: Floats
+    integrals: Floats
 
 
-def traced(weights: Floats, q: Samples, residue: Residue, beta: float) -> Traced:
+def traced(weights: Floats, mean: Floats, q: Samples, residue: Residue, beta: float) -> Traced:
     """Trace the paths of k points; ``weights`` (2, k, m) are normal stress and shear per unit coordinate [MPa].
 
-    A record that recurs goes back from its last sample to its first one.
+    The coordinates at ``mean`` (m,) give the point that the integrals are about. A record that recurs goes back from
+    its last sample to its first one.
     """
     parts = [weights[:, first : first + POINTS_AT_ONCE] for first in range(0, weights.shape[1], POINTS_AT_ONCE)]
-    found = [_traced(part, q, residue, beta) for part in parts]
-    return Traced(*(np.concatenate([getattr(one, name) for one in found]) for name in Traced.__slots__))
+    found = [_traced(part, mean, q, residue, beta) for part in parts]
+    return Traced(*(np.concatenate([getattr(one, name) for one in found], axis=-1) for name in Traced.__slots__))
 
 
-def _traced(weights: Floats, q: Samples, residue: Residue, beta: float) -> Traced:
-    k = weights.shape[1]
+def _traced(weights: Floats, mean: Floats, q: Samples, residue: Residue, beta: float) -> Traced:
+    k, centre = weights.shape[1], (weights @ mean)[..., None]
     length, high, low = np.zeros(k), np.full((2, k), -np.inf), np.full((2, k), np.inf)
     first = last = np.empty((2, k, 0))
+    integrals, scale = np.zeros((2, k)), np.array([1.0, np.sqrt(beta)])[:, None, None]
     for chunk in stress_chunks(weights.reshape(2 * k, -1), q):
         stress = chunk.reshape(2, k, -1)
         high, low = np.maximum(high, stress.max(axis=2)), np.minimum(low, stress.min(axis=2))
-        length += _length(np.concatenate([last, stress], axis=2), beta)
+        path = np.concatenate([last, stress], axis=2)
+        length += _length(path, beta)
+        integrals += power_integrals(scale * (path - centre))
         last = stress[:, :, -1:].copy()
         first = first if first.size else stress[:, :, :1].copy()
     if residue == "repeat":
-        length += _length(np.concatenate([last, first], axis=2), beta)
-    return Traced(length, *(high - low))
+        path = np.concatenate([last, first], axis=2)
+        length += _length(path, beta)
+        integrals += power_integrals(scale * (path - centre))
+    return Traced(length, *(high - low), integrals)
 
 
 def _length(path: Floats, beta: float) -> Floats:

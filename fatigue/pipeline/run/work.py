@@ -119,7 +119,8 @@ def open_work(
     log.info("points proven to stay below %g of the damage limit are not counted", share)
     screening = None if share == 0.0 else screening_of(share, options.proves_worst, loads, scratch, threads)
     sampling = other_sampling(groups, loads, plan)
-    shear = shear_of(groups.body.case, loads, 0.0 if named else _worst_paths_from(groups, loads, large), threads)
+    counted_from = 0.0 if named else _worst_paths_from(groups, loads, large)
+    shear = shear_of(groups.body.case, loads, counted_from, threads, is_large=large > 0.0 and not named)
     return Work(
         groups, loads, plan, screening, kept_from=large, histogram=options.histogram, sampling=sampling, shear=shear
     )
@@ -131,7 +132,9 @@ def _worst_paths_from(groups: WeldGroups, loads: Sequence[EventLoad], large: flo
     return max(large, SMALL_SHARE if samples > WORST_PATHS else 0.0)
 
 
-def shear_of(case: Case, loads: Sequence[EventLoad], counted_from: float, threads: int | None) -> Shear | None:
+def shear_of(
+    case: Case, loads: Sequence[EventLoad], counted_from: float, threads: int | None, *, is_large: bool
+) -> Shear | None:
     """How the case wants shear at the toes, with the records prepared for its bounds on some threads.
 
     Raises
@@ -145,7 +148,7 @@ def shear_of(case: Case, loads: Sequence[EventLoad], counted_from: float, thread
         as_counted = ((load.counted.event, load.counted.q.shape[1], load.upsample) for load in loads)
         refuse(DataError, long_paths(case.path.name, as_counted))
     extents = in_order(lambda load: path_extent(load.counted.q, load.residue, load.covariance), loads, threads)
-    return Shear(asked.method, asked.beta, asked.alpha, tuple(extents), counted_from)
+    return Shear(asked.method, asked.beta, asked.alpha, tuple(extents), counted_from, is_large)
 
 
 def screening_of(

@@ -8,7 +8,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fatigue.life.bounds.path_bound import largest_combined_range, path_bound, path_length, path_length_bound
+from fatigue.life.bounds.path_bound import (
+    largest_combined_range,
+    path_bound,
+    path_length,
+    path_length_bound,
+    power_bound,
+    power_integrals,
+)
 from fatigue.life.curves import DamageLaw, catalogue
 from fatigue.life.path.count import count_path
 from fatigue.life.path.ranges import combined_range, end_ranges, path_damage
@@ -81,6 +88,17 @@ def test_never_below_the_count(seed, samples, law, uses_bending_ratio, residue, 
     assert first_tier >= length * (1.0 - 1e-9) - 1e-12
     assert path_bound(first_tier, xh, SIZE, rule) >= damage * (1.0 - 1e-9)
 
+    closed = [np.append(a, a[0]) if residue == "repeat" else a for a in (s, np.sqrt(beta) * tau)]
+    path = np.stack(closed) - random.normal(size=(2, 1)) * random.choice([0.0, 1.0, 10.0])  # seen from any point
+    integrals = power_integrals(path)
+    for power, integral in zip((3, 4), integrals, strict=True):
+        sum_of_powers = 0.5 * (cycles.range**power).sum()
+        assert sum_of_powers <= 2.0 ** (power - 2) * integral * (1.0 + 1e-9) + 1e-300
+    largest = np.hypot(np.ptp(s), np.sqrt(beta) * np.ptp(tau))
+    closer = power_bound(np.asarray(length), integrals, np.asarray(largest), np.asarray(SIZE), rule)
+    assert damage <= closer * (1.0 + 1e-9)
+    assert closer <= path_bound(length, xh, SIZE, rule) * (1.0 + 1e-6)
+
 
 def test_many_points_at_once():
     """Lengths and bounds of several points are those of each."""
@@ -94,6 +112,19 @@ def test_many_points_at_once():
     np.testing.assert_allclose(bound[2], path_bound(together[2], xh[2], SIZE, rule))
 
 
+def test_powers_along_a_straight_path_are_exact():
+    """Back and forth about the middle every half cycle has the power that the path has; a circle has more of it."""
+    back_and_forth = np.array([[-1.0, 1.0, -1.0], [0.0, 0.0, 0.0]])
+    assert power_integrals(back_and_forth)[0] == pytest.approx(2.0 * 2.0, rel=1e-12)
+    finely = np.stack([np.interp(np.linspace(0.0, 2.0, 2001), [0.0, 1.0, 2.0], back_and_forth[0]), np.zeros(2001)])
+    assert power_integrals(finely) == pytest.approx([4.0, 4.0], rel=1e-5)
+    assert 2.0 * power_integrals(finely)[0] == pytest.approx(0.5 * 2 * 2.0**3, rel=1e-12)  # nothing is lost
+    turn = np.linspace(0.0, 2.0 * np.pi, 3601)
+    assert power_integrals(np.stack([np.cos(turn), np.sin(turn)])) == pytest.approx(
+        [6.0 * np.pi, 8.0 * np.pi], rel=1e-5
+    )
+
+
 def test_what_the_bound_leaves_out():
     """What never moves has the bound 0, ranges below a cut-off too; with f_M in the damage there is none."""
     rule = CycleRule(LAWS["cut-off"], uses_bending_ratio=False)
@@ -101,3 +132,7 @@ def test_what_the_bound_leaves_out():
     assert path_bound(np.array([1e3]), np.array([14.0]), np.ones(1), rule)[0] == 0.0
     with pytest.raises(ValueError, match="without f_M"):
         path_bound(np.ones(1), np.ones(1), np.ones(1), CycleRule(MASTER, True, yield_MPa=355.0, mean_stress=True))
+    assert power_bound(np.zeros(1), np.zeros((2, 1)), np.zeros(1), np.ones(1), rule)[0] == 0.0
+    with pytest.raises(ValueError, match="without f_M"):
+        with_f_M = CycleRule(MASTER, True, yield_MPa=355.0, mean_stress=True)
+        power_bound(np.ones(1), np.ones((2, 1)), np.ones(1), np.ones(1), with_f_M)

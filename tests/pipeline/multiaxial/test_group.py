@@ -23,10 +23,10 @@ LAWS = {
 }
 
 
-def shear_of(loads, method="report", alpha=1.0, counted_from=np.inf):
+def shear_of(loads, method="report", alpha=1.0, counted_from=np.inf, is_large=False):
     """How shear is counted; by default no worst point is."""
     extents = tuple(path_extent(load.counted.q, load.residue, load.covariance) for load in loads)
-    return Shear(method, 3.0, alpha, extents, counted_from)
+    return Shear(method, 3.0, alpha, extents, counted_from, is_large)
 
 
 def nowhere(toes):
@@ -35,8 +35,8 @@ def nowhere(toes):
 
 
 @settings(deadline=None, max_examples=60)
-@given(st.integers(0, 2**32 - 1), st.sampled_from(sorted(LAWS)), st.booleans(), st.floats(0.05, 20.0))
-def test_settled_points_are_as_they_are_counted(seed, law, uses_bending_ratio, share):
+@given(st.integers(0, 2**32 - 1), st.sampled_from(sorted(LAWS)), st.booleans(), st.floats(0.05, 20.0), st.booleans())
+def test_settled_points_are_as_they_are_counted(seed, law, uses_bending_ratio, share, is_large):
     """Every status and every bound agrees with the sums of a count of all points; so do the flags of shear."""
     rng = np.random.default_rng(seed)
     loads, passes = drawn_loads(rng)
@@ -46,12 +46,14 @@ def test_settled_points_are_as_they_are_counted(seed, law, uses_bending_ratio, s
         return  # half of the points below a cut-off
     plan = replace(plan, damage_limit=share * plan.damage_limit)
     toes = replace(toes, normal=toes.normal / share, with_shear=toes.with_shear / share)
-    found = of_curve(toes, nowhere(toes), loads, plan, shear_of(loads), "welds")
+    found = of_curve(toes, nowhere(toes), loads, plan, shear_of(loads, is_large=is_large), "welds")
     everything = of_curve(toes, nowhere(toes), loads, plan, shear_of(loads, "mlp"), "welds")
     status = np.array(STATUSES)[found["status"]]
     assert not np.isnan(everything["range"]).any()
     assert (everything["range"] <= everything["bound"] * (1.0 + 1e-9)).all()
-    assert (everything["bound"] <= found["bound"] * (1.0 + 1e-9)).all()
+    assert (everything["range"] <= found["bound"] * (1.0 + 1e-9)).all()
+    by_length = (everything["bound"] <= 1.0) | (found["bound"] > 1.0) | (not is_large)
+    assert (everything["bound"][by_length] <= found["bound"][by_length] * (1.0 + 1e-9)).all()
     assert (toes.normal[status == "settled_fails"] > 1.0).all()
     passed = status == "settled_passes"
     assert (everything["range"][passed] <= 1.0).all()
