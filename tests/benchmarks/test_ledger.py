@@ -3,6 +3,7 @@
 import csv
 import io
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -214,3 +215,12 @@ def test_the_file_is_written(name, begins, rows, tmp_path, monkeypatch):
     monkeypatch.setattr("benchmarks.ledger.command.ledger", lambda size, told: rows)
     main(["-o", str(tmp_path / name)])
     assert (tmp_path / name).read_text().startswith(begins)
+
+
+def test_the_page_in_the_docs_is_one_of_this_program(rows):
+    """Its sentences are those that are written now; its numbers are those of another machine."""
+    written = Path("docs/ledger.md").read_text(encoding="utf-8")
+    of_now = page(rows, FACTS)
+    assert written.split("Measured on")[0] == of_now.split("Measured on")[0]
+    sentences = [line for line in of_now.splitlines() if line.startswith(("- ", "## "))]
+    assert [line for line in written.splitlines() if line.startswith(("- ", "## "))] == sentences
