@@ -79,14 +79,16 @@ def path_bound(length: Floats, xh: Floats, size: Floats, rule: CycleRule) -> Flo
 def power_integrals(path: Floats) -> Floats:
     """Integrals of ``3 |x|^2 |dx|`` and ``4 |x|^3 |dx|`` (2, ...) along paths x (2, ..., t) of two coordinates.
 
-    The latter from above.
+    The latter from above; infinite, which bounds nothing, where a power of the stress exceeds double precision.
     """
-    square = path[0] ** 2 + path[1] ** 2
-    step = np.diff(path[0]) ** 2 + np.diff(path[1]) ** 2
-    length, cube = np.sqrt(step), square * np.sqrt(square)
-    third = length * (1.5 * (square[..., :-1] + square[..., 1:]) - 0.5 * step)
-    fourth = 2.0 * length * (cube[..., :-1] + cube[..., 1:])
-    return np.stack([third.sum(axis=-1), fourth.sum(axis=-1)])
+    with np.errstate(over="ignore", invalid="ignore"):
+        square = path[0] ** 2 + path[1] ** 2
+        step = np.diff(path[0]) ** 2 + np.diff(path[1]) ** 2
+        length, cube = np.sqrt(step), square * np.sqrt(square)
+        third = length * (1.5 * (square[..., :-1] + square[..., 1:]) - 0.5 * step)
+        fourth = 2.0 * length * (cube[..., :-1] + cube[..., 1:])
+        both = np.stack([third.sum(axis=-1), fourth.sum(axis=-1)])
+    return np.where(np.isnan(both), np.inf, both)
 
 
 def power_bound(length: Floats, integrals: Floats, largest_range: Floats, size: Floats, rule: CycleRule) -> Floats:
@@ -101,8 +103,10 @@ def power_bound(length: Floats, integrals: Floats, largest_range: Floats, size: 
     if rule.mean_stress:
         raise ValueError("the bound holds without f_M only")
     sums: PowerSums = {1: 0.5 * length, 3: 2.0 * integrals[0], 4: 4.0 * integrals[1]}
-    raised = {q: (1.0 + ROUNDING) * power_sum for q, power_sum in sums.items()}
-    return damage_bound((1.0 + ROUNDING) * largest_range, raised, size, rule)[0]
+    with np.errstate(over="ignore", invalid="ignore"):
+        raised = {q: (1.0 + ROUNDING) * power_sum for q, power_sum in sums.items()}
+        bound = damage_bound((1.0 + ROUNDING) * largest_range, raised, size, rule)[0]
+    return np.where(np.isnan(bound), np.inf, bound)
 
 
 def _largest_factor(size: Floats, rule: CycleRule) -> Floats:

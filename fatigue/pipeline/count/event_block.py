@@ -1,7 +1,7 @@
 """One pass of one event at a block of stations: cycles counted, or bounds in their place, beside the estimate."""
 
 from dataclasses import dataclass, replace
-from typing import Self
+from typing import NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,16 @@ from fatigue.quotient import quotient
 from fatigue.spectrum.outside import missed_damage
 from fatigue.spectrum.trust import VERDICTS, judge
 from fatigue.weld.structural_stress import RawEnds
+
+
+class _Variances(NamedTuple):
+    """Variances of normal stress and shear, and ``both``, their covariance, (n, 2) [MPa^2]; bending ratios (n, 1)."""
+
+    normal: NDArray[np.float64]
+    shear: NDArray[np.float64]
+    both: NDArray[np.float64]
+    bending_ratio: NDArray[np.float64]
+    shear_bending_ratio: NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -78,9 +88,9 @@ def count_event(stress: ModalStress, load: EventLoad, estimate: Estimate, *, joi
     The residues of a pass are kept where it ``joins`` other events. The equivalent range of a cycle has the bending
     ratio of this cycle (ASME VIII-2 5.5.5).
     """
-    var, shear_var, covar, shear_bending_ratio = _variances(stress, load)
-    rule = stress.rule
-    with_shear = _with_shear(rule, estimate, var, shear_var, covar, shear_bending_ratio)
+    of_stress = _variances(stress, load)
+    var, shear_var, rule = of_stress.normal, of_stress.shear, stress.rule
+    with_shear = _with_shear(rule, estimate.one_ratio, of_stress)
     counted, damage_raw_end, residues = _counted(stress, load, estimate.one_ratio, with_shear, joins=joins)
     damage_shear = counted.damage_with_shear
     if rule.law.is_straight:
@@ -97,9 +107,10 @@ def count_event(stress: ModalStress, load: EventLoad, estimate: Estimate, *, joi
     )
 
 
-def factor_with_shear(stress: ModalStress, load: EventLoad, estimate: Estimate) -> NDArray[np.float64]:
+def factor_with_shear(stress: ModalStress, load: EventLoad) -> NDArray[np.float64]:
     """ASME factor (n, 2) on the equivalent range if shear counted; 1 where the normal stress is constant."""
-    return _with_shear(stress.rule, estimate, *_variances(stress, load))
+    of_stress = _variances(stress, load)
+    return _with_shear(stress.rule, of_stress.bending_ratio, of_stress)
 
 
 def judged(event: EventBlock, stress: ModalStress, load: EventLoad) -> EventBlock:
@@ -174,36 +185,33 @@ def _counted(
     return counted, damage_raw_end, residues
 
 
-def _with_shear(
-    rule: CycleRule,
-    estimate: Estimate,
-    var: NDArray[np.float64],
-    shear_var: NDArray[np.float64],
-    covar: NDArray[np.float64],
-    shear_bending_ratio: NDArray[np.float64],
-) -> NDArray[np.float64]:
-    """``shear_factor`` of both faces, each stress over its own ``I(r)^(1/m)``.
+def _with_shear(rule: CycleRule, one_ratio: NDArray[np.float64], of: _Variances) -> NDArray[np.float64]:
+    """``shear_factor`` of both faces, each stress over its own ``I(r)^(1/m)``; ``one_ratio`` is of the normal stress.
 
     A stress whose variance vanishes has no cycles but those of rounding, and no factor: 1 stands for it.
     """
-    I_s, I_t = rule.ratio_factor(estimate.one_ratio), rule.ratio_factor(shear_bending_ratio)
-    return np.nan_to_num(shear_factor(var / I_s**2, shear_var / I_t**2, covar / (I_s * I_t)), nan=1.0)
+    I_s, I_t = rule.ratio_factor(one_ratio), rule.ratio_factor(of.shear_bending_ratio)
+    return np.nan_to_num(shear_factor(of.normal / I_s**2, of.shear / I_t**2, of.both / (I_s * I_t)), nan=1.0)
 
 
-def _variances(stress: ModalStress, load: EventLoad) -> tuple[NDArray[np.float64], ...]:
-    """Variances of stress and shear and their covariance, (n, 2), and the one bending ratio of the shear, (n, 1)."""
+def _variances(stress: ModalStress, load: EventLoad) -> _Variances:
+    """Variances of normal stress and shear at some stations, the stress factor of the event included."""
     f = load.stress_factor
     S_m, S_b = f * stress.membrane, f * stress.bending
     S_s, S_t = f * stress.in_plane_shear, f * stress.twist_shear
-    C_m, C_b, C_s, C_t = (S @ load.covariance for S in (S_m, S_b, S_s, S_t))
+    products = [S @ load.covariance for S in (S_m, S_b, S_s, S_t)]
+    C_m, C_b, C_s, C_t = products
     normal, shear = faces(S_m, S_b), faces(S_s, S_t)
     normal_C, shear_C = faces(C_m, C_b), faces(C_s, C_t)
-    std_s, std_t = (np.sqrt(np.maximum(_along_modes(a, b), 0.0)) for a, b in ((C_s, S_s), (C_t, S_t)))
-    return (
-        np.maximum(_along_modes(normal_C, normal), 0.0),
-        np.maximum(_along_modes(shear_C, shear), 0.0),
-        _along_modes(normal_C, shear),
-        np.nan_to_num(quotient(std_t, std_s + std_t))[:, None],
+    std_m, std_b, std_s, std_t = (
+        np.sqrt(np.maximum(_along_modes(C, S), 0.0)) for C, S in zip(products, (S_m, S_b, S_s, S_t), strict=True)
+    )
+    return _Variances(
+        normal=np.maximum(_along_modes(normal_C, normal), 0.0),
+        shear=np.maximum(_along_modes(shear_C, shear), 0.0),
+        both=_along_modes(normal_C, shear),
+        bending_ratio=np.nan_to_num(quotient(std_b, std_m + std_b))[:, None],
+        shear_bending_ratio=np.nan_to_num(quotient(std_t, std_s + std_t))[:, None],
     )
 
 

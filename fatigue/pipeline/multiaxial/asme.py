@@ -7,7 +7,6 @@ from numpy.typing import NDArray
 
 from fatigue.life.mission import Plan
 from fatigue.pipeline.count.block import Block
-from fatigue.pipeline.count.estimate import estimate_event, member_variances
 from fatigue.pipeline.count.event_block import factor_with_shear
 from fatigue.pipeline.mission.event_load import EventLoad, without_spectrum
 from fatigue.pipeline.multiaxial.toes import Toes
@@ -31,9 +30,7 @@ def _asme_bound(toes: Toes, rows: NDArray[np.intp], loads: Sequence[EventLoad], 
     stress, law = toes.stress.at(rows), toes.stress.rule.law
     total = toes.transitions[rows].copy()
     for number, (load, weight) in enumerate(zip(loads, passes, strict=True)):
-        few = without_spectrum(load)
-        estimate = estimate_event(stress, few, member_variances(stress, few))
-        factor = factor_with_shear(stress, load, estimate)
+        factor = factor_with_shear(stress, load)
         damage = toes.of_events[number, rows] * factor ** float(law.slopes.max())
         if law.cutoff > 0.0:
             damage = np.where(toes.largest[number, rows] * factor < law.cutoff, 0.0, np.inf)

@@ -57,8 +57,8 @@ def _traced(weights: Floats, mean: Floats, q: Samples, residue: Residue, beta: f
         path = np.concatenate([last, first], axis=2)
         length += _length(path, beta)
         integrals += power_integrals(scale * (path - centre))
-    normal, shear = high - low
-    return Traced(length, normal, shear, integrals)
+    normal_range, shear_range = high - low
+    return Traced(length, normal_range, shear_range, integrals)
 
 
 def _length(path: Floats, beta: float) -> Floats:

@@ -136,3 +136,11 @@ def test_what_the_bound_leaves_out():
     with pytest.raises(ValueError, match="without f_M"):
         with_f_M = CycleRule(MASTER, True, yield_MPa=355.0, mean_stress=True)
         power_bound(np.ones(1), np.ones((2, 1)), np.ones(1), np.ones(1), with_f_M)
+
+
+def test_powers_that_exceed_double_precision_bound_nothing_and_say_so() -> None:
+    path = np.array([[[0.0, 1e160, 0.0], [0.0, 1.0, 0.0]], [[0.0, 0.0, 0.0], [0.0, 0.0, 0.0]]])
+    with np.errstate(over="raise", invalid="raise"):
+        integrals = power_integrals(path)
+    assert np.isinf(integrals[:, 0]).all()
+    np.testing.assert_allclose(integrals[:, 1], [2.0, 4.0])  # int of 3 x^2 there and back; of 4 x^3 by its ends
