@@ -6,9 +6,9 @@ other files; numba looks only at the file of the function itself. So machine cod
 with loops is removed before any is loaded.
 
 A loop costs a tenth to half a second to compile. What makes it dear: each function that is called from it, compiled
-for itself, for any mixture of types and constants (``f(s, True)`` and ``f(s, False)`` are two versions); named tuples of
-many arrays as arguments; fields of structured arrays; slices that are assigned to; ``np.empty`` and array expressions.
-So loops take arrays, write into them, and leave to numpy what numpy does as fast.
+for itself, for any mixture of types and constants (``f(s, True)`` and ``f(s, False)`` are two); named tuples of many
+arrays as arguments; fields of structured arrays; slices that are assigned to; ``np.empty`` and array expressions. So
+loops take arrays, write into them, and leave to numpy what numpy does as fast.
 """
 
 import time
