@@ -1,13 +1,20 @@
 """Loops in machine code: one decorator for all of them.
 
-Machine code is kept on disk, in ``__pycache__``. It contains the functions it calls and the named tuples it takes, also
-those of other files; numba looks only at the file of the function itself. So machine code that is older than a file of
-the rooms with loops is removed before any is loaded.
+Machine code is kept on disk: in ``NUMBA_CACHE_DIR`` where that is set, else in ``__pycache__``, else, of a read-only
+install, in the user's cache folder. It contains the functions it calls and the named tuples it takes, also those of
+other files; numba looks only at the file of the function itself. So machine code that is older than a file of the rooms
+with loops is removed before any is loaded.
+
+A loop costs a tenth to half a second to compile. What makes it dear: each function that is called from it, compiled
+for itself, for any mixture of types and constants (``f(s, True)`` and ``f(s, False)`` are two); named tuples of many
+arrays as arguments; fields of structured arrays; slices that are assigned to; ``np.empty`` and array expressions. So
+loops take arrays, write into them, and leave to numpy what numpy does as fast.
 """
 
 import time
 from collections.abc import Callable, Sequence
 from contextlib import suppress
+from functools import cache
 from pathlib import Path
 from typing import Any, ParamSpec, TypeVar, cast
 
@@ -32,6 +39,7 @@ def compiled(*fastmath: str) -> Callable[[Callable[P, R]], Callable[P, R]]:
         loops: Any = njit(**flags)(function)
         with suppress(RuntimeError, AttributeError):  # no such folder; plain Python, with NUMBA_DISABLE_JIT
             loops.enable_caching()
+            _clean(loops._cache.cache_path)
             loops._cache.save_overload = _unless_refused(loops._cache.save_overload)
         return cast(Callable[P, R], loops)
 
@@ -53,22 +61,31 @@ def inlined(function: Callable[P, R]) -> Callable[P, R]:
     return cast(Callable[P, R], njit(inline="always")(function))
 
 
-def remove_stale(rooms: Sequence[Path]) -> None:
-    """Remove machine code that is older than the newest source file of the rooms; it is compiled again.
+def remove_stale(folder: Path, written: float) -> None:
+    """Remove machine code in a folder that is older than the time at which its sources were ``written``.
 
-    Files dated in the future are left out of it: machine code would always be older. Where nothing may be removed,
-    nothing is.
+    Where nothing may be removed, nothing is.
     """
+    for kept in folder.glob("*.nb[ic]"):
+        try:
+            if kept.stat().st_mtime < written:
+                kept.unlink()
+        except OSError:  # another process was faster, or the folder is read-only
+            continue
+
+
+def last_written(rooms: Sequence[Path]) -> float:
+    """When the newest source file of rooms was written; not one dated in the future: machine code were always older."""
     now = time.time()
     written = [path.stat().st_mtime for room in rooms for path in room.rglob("*.py")]
-    newest = max((when for when in written if when <= now), default=0.0)
-    for room in rooms:
-        for kept in room.rglob("__pycache__/*.nb[ic]"):
-            try:
-                if kept.stat().st_mtime < newest:
-                    kept.unlink()
-            except OSError:  # another process was faster, or the folder is read-only
-                continue
+    return max((when for when in written if when <= now), default=0.0)
 
 
-remove_stale([Path(__file__).parent / room for room in ROOMS])
+@cache
+def _clean(folder: str | None) -> None:
+    """Remove machine code from a folder, of whatever place, that is older than the rooms with loops."""
+    if folder:
+        remove_stale(Path(folder), WRITTEN)
+
+
+WRITTEN = last_written([Path(__file__).parent / room for room in ROOMS])

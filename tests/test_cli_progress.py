@@ -1,5 +1,6 @@
 """What is told while somebody waits: on a terminal, in a log file, and not at all."""
 
+import logging
 import os
 import subprocess
 import sys
@@ -8,8 +9,8 @@ import time
 import pytest
 
 from fatigue.cli import progress
-from fatigue.cli.progress import narrated
-from fatigue.stages import stage
+from fatigue.cli.progress import COMPILING, Narrator, narrated
+from fatigue.stages import STAGES, stage
 from tests.command_line import ROOT
 
 
@@ -94,4 +95,18 @@ def test_compilation_is_told_when_it_begins_and_once():
     )  # fmt: skip
     first, second = done.stderr.splitlines()
     assert first.startswith("compiling the loops, once for this version on this machine")
+    assert "no folder to keep them can be written, so every run will: set NUMBA_CACHE_DIR" in first
     assert second.startswith("counting: done in")
+
+
+def test_where_compiled_loops_are_kept_is_told_and_logged(lines, caplog):
+    """The folder of the first loop that is compiled, on stderr and in the log."""
+    with narrated(quiet=False), caplog.at_level("INFO", "fatigue.cli.progress"):
+        stage("counting")
+        narrator = next(h for h in logging.getLogger(STAGES).handlers if isinstance(h, Narrator))
+        narrator.compiling(1, "/some/folder")
+        narrator.compiling(-1)
+        narrator.compiling(1, "/another")
+    assert [line for line in lines if "compiling" in line] == [f"{COMPILING}; kept in /some/folder ..."]
+    logged = [record.getMessage() for record in caplog.records if record.name == progress.__name__]
+    assert logged == [f"{COMPILING}; kept in /some/folder"]

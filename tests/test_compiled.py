@@ -8,7 +8,7 @@ import time
 import pytest
 from threadpoolctl import threadpool_info, threadpool_limits
 
-from fatigue.compiled import remove_stale  # the module loads the BLAS of compiled code
+from fatigue.compiled import last_written, remove_stale  # the module loads the BLAS of compiled code
 
 SCRIPT = """
 import hashlib, sys
@@ -118,7 +118,7 @@ def test_machine_code_older_than_a_source_file_is_removed(room, changed, age_s, 
     """Also where the file that has changed is another one than that of the loop."""
     if changed:
         os.utime(room / changed, (time.time() - age_s,) * 2)
-    remove_stale([room])
+    remove_stale(room / "inner" / "__pycache__", last_written([room]))
     assert (room / "inner" / "__pycache__" / "loops.add-3.py311.nbi").exists() == stays
 
 
@@ -128,8 +128,9 @@ def test_a_changed_formula_is_compiled_anew(tmp_path):
     (tmp_path / "called.py").write_text("def factor(x):\n    return 2.0 * x\n")
     (tmp_path / "loop.py").write_text(
         "from pathlib import Path\n"
-        "from fatigue.compiled import compiled, remove_stale\n"
-        "remove_stale([Path(__file__).parent])\n"
+        "from fatigue.compiled import compiled, last_written, remove_stale\n"
+        "here = Path(__file__).parent\n"
+        "remove_stale(here / '__pycache__', last_written([here]))\n"
         "from called import factor\n"
         "factor = compiled()(factor)\n"
         "@compiled()\ndef run(x):\n    return factor(x)\n"

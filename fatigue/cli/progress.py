@@ -17,8 +17,11 @@ Given = TypeVar("Given")
 Result = TypeVar("Result")
 Progress = Callable[[str, int, int], None]
 
+log = logging.getLogger(__name__)
+
 BETWEEN_LINES_S = 10.0  # in a file or a pipe
-COMPILING = "compiling the loops, once for this version on this machine: half a minute or more"
+COMPILING = "compiling the loops, once for this version on this machine: some 6 s for a small job, more for large ones"
+NOT_KEPT = "; no folder to keep them can be written, so every run will: set NUMBA_CACHE_DIR to one"
 
 
 def is_quiet() -> bool:
@@ -110,12 +113,14 @@ class Narrator(logging.Handler):
         if done == total:
             self._bars.pop(label).__exit__(None, None, None)
 
-    def compiling(self, functions: int) -> None:
-        """Count functions that are being compiled: one more, or one less."""
+    def compiling(self, functions: int, kept_in: str | None = None) -> None:
+        """Count functions that are being compiled: one more, for the folder they are ``kept_in``, or one less."""
         self._compiling += functions
         if functions > 0 and not self._told_compiling:
             self._told_compiling = True
-            self._line(f"{COMPILING} ...")
+            said = COMPILING + (f"; kept in {kept_in}" if kept_in else NOT_KEPT)
+            self._line(f"{said} ...")
+            log.info("%s", said)
 
     def _line(self, text: str) -> None:
         self._last_line = time.monotonic()
@@ -143,8 +148,9 @@ def _told_compilations(narrator: Narrator) -> Iterator[None]:
     class Listener(event.Listener):
         """Counts begins and ends."""
 
-        def on_start(self, _: Any) -> None:
-            narrator.compiling(1)
+        def on_start(self, what: Any) -> None:
+            kept = getattr(what.data["dispatcher"], "_cache", None)
+            narrator.compiling(1, getattr(kept, "cache_path", None))
 
         def on_end(self, _: Any) -> None:
             narrator.compiling(-1)

@@ -76,14 +76,11 @@ def _components(load: Floats, along: Floats, stress: Floats) -> None:
     components of the load; the others come from the force f.
     """
     for i in range(load.shape[0]):
-        across, bending, along_line, twist, through = along[i]
         for j in range(load.shape[1]):
-            fx, fy, fz, mx, my, mz = load[i, j]
-            stress[0, i, j] = fx * across[0] + fy * across[1] + fz * across[2]
-            stress[1, i, j] = mx * bending[0] + my * bending[1] + mz * bending[2]
-            stress[2, i, j] = fx * along_line[0] + fy * along_line[1] + fz * along_line[2]
-            stress[3, i, j] = mx * twist[0] + my * twist[1] + mz * twist[2]
-            stress[4, i, j] = fx * through[0] + fy * through[1] + fz * through[2]
+            for part in range(5):
+                first = 3 if part in (1, 3) else 0
+                product = load[i, j, first] * along[i, part, 0] + load[i, j, first + 1] * along[i, part, 1]
+                stress[part, i, j] = product + load[i, j, first + 2] * along[i, part, 2]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
