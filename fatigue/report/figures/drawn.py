@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 Trace = dict[str, Any]
 
+PAIRS = ("range", "domain")  # of numbers, which plotly.js does not read as bytes
 SMALLEST = ("int8", "int16", "int32")  # of whole numbers, what plotly.js reads
 CODES = {"int8": "i1", "uint8": "u1", "int16": "i2", "uint16": "u2", "int32": "i4", "uint32": "u4"} | {
     "float32": "f4",
@@ -58,7 +59,7 @@ def _plain(value: Any) -> Any:
     if isinstance(value, str):
         return value
     if isinstance(value, dict):
-        return {name: _plain(held) for name, held in value.items()}
+        return {name: _listed(held) if name in PAIRS else _plain(held) for name, held in value.items()}
     if isinstance(value, list | tuple):
         return [_plain(held) for held in value]
     if isinstance(value, np.generic):
@@ -70,11 +71,17 @@ def _plain(value: Any) -> Any:
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
+def _listed(value: Any) -> Any:
+    """The same as ``_plain``, an array as a list."""
+    return _plain(value.tolist() if isinstance(value, np.ndarray) else value)
+
+
 def _typed(values: NDArray[np.number]) -> Any:
     """Array as plotly.js reads it; whole numbers take the smallest type that holds them, if one does."""
-    if values.dtype == np.int64:
+    if values.dtype.name in ("int64", "uint64"):
         low, high = int(values.min()), int(values.max())
         fitting = next((t for t in SMALLEST if np.iinfo(t).min <= low and high <= np.iinfo(t).max), "float64")
         values = values.astype(fitting)
-    found = {"dtype": CODES[values.dtype.name], "bdata": base64.b64encode(values.tobytes()).decode()}
+    little_endian = values.astype(values.dtype.newbyteorder("<"), copy=False)
+    found = {"dtype": CODES[values.dtype.name], "bdata": base64.b64encode(little_endian.tobytes()).decode()}
     return found if values.ndim == 1 else found | {"shape": ", ".join(map(str, values.shape))}

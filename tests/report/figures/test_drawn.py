@@ -55,6 +55,8 @@ def test_a_mistyped_attribute_is_refused():
         (np.array([1, 2], dtype=np.uint8), "u1"),
         (np.array([1.5, np.inf, np.nan]), "f8"),
         (np.array([[1.5, 2.5, np.nan]], dtype=np.float32), "f4"),
+        (np.array([1.5, -2.0], dtype=">f8"), "f8"),
+        (np.array([1, 300], dtype=np.uint64), "i2"),
         (pd.Series([1.0, 2.0]), "f8"),
     ],
 )
@@ -72,6 +74,13 @@ def test_what_json_cannot_say_is_null():
     content = Figure([trace], {"height": np.float64(30.0), "xaxis": {"range": (0.0, np.float64(np.inf))}}).content()
     assert content["data"][0] == {"type": "scatter", "y": [1.0, None], "customdata": [["a", None], ["b", 2]], "x": []}
     assert content["layout"] == {"height": 30.0, "xaxis": {"range": [0.0, None]}}
+
+
+def test_the_ends_of_an_axis_are_a_list():
+    """However they are given: plotly.js reads no bytes there."""
+    axis = {"range": np.array([0.0, 1.5]), "domain": (0.0, np.float64(0.5)), "tickvals": np.array([1.0])}
+    written = Figure([], {"xaxis": axis}).content()["layout"]["xaxis"]
+    assert (written["range"], written["domain"], written["tickvals"]["dtype"]) == ([0.0, 1.5], [0.0, 0.5], "f8")
 
 
 def test_a_notebook_shows_a_figure_by_its_name(monkeypatch):
