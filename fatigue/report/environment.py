@@ -28,6 +28,8 @@ def environment(*rooms: str, language: Language = ENGLISH) -> jinja2.Environment
     )
     made.filters |= {
         "number": wording.number,
+        "result": wording.result,
+        "given": wording.given,
         "km": wording.km,
         "years": wording.years,
         "life": wording.life,

@@ -10,7 +10,7 @@ import pytest
 
 from fatigue.errors import DataError
 from fatigue.report.page import report_page, write_report
-from fatigue.report.wording import life, number
+from fatigue.report.wording import life, result
 from tests.report.reading import Page, values
 from tests.report.tiny_result import TARGET_KM, Recipe, write_result
 
@@ -36,15 +36,16 @@ def made(tmp_path, **recipe):
 def test_the_first_words_are_the_verdict(page):
     """Fulfilled or not, how many welds, the target in km and years."""
     assert "Target not fulfilled" in page.words
-    assert "1 of 2 welds misses the target of 12 000 000 km (24.00 years at 500 000 km per year)" in page.words
+    assert "1 of 2 welds misses the target of 12 000 000 km (24 years at 500 000 km per year)" in page.words
 
 
 def test_worst_welds_equal_the_register(page, result_folder):
-    """Every number of the table of welds is that of welds.parquet, worst weld first, four digits, of lives three."""
+    """Every number of the table of welds is that of welds.parquet, worst weld first; three digits, millions."""
     welds = pd.read_parquet(result_folder / "welds.parquet").sort_values("utilisation", ascending=False)
     rows = page.tables["worst-welds"][1:]
     for row, (_, weld) in zip(rows, welds.iterrows(), strict=True):
-        expected = [*map(life, weld[["life_km", "life_years"]]), *map(number, weld[["utilisation", "load_factor"]])]
+        lives = [weld["life_km"] / 1e6, weld["life_years"]]
+        expected = [*map(life, lives), *map(result, weld[["utilisation", "load_factor"]])]
         assert row[0] == weld["weld"]
         assert row[2:6] == expected
         assert row[6] == str(weld["worst_node"])
@@ -58,7 +59,7 @@ def test_worst_points_equal_the_table_of_nodes(page, result_folder):
     assert len(rows) == 10
     for row, (_, point) in zip(rows, worst.iterrows(), strict=True):
         assert row[1:4] == [point["weld"], str(point["node"]), point["surface"]]
-        assert row[5:7] == [life(point["life_km"]), life(point["life_years"])]
+        assert row[5:7] == [life(point["life_km"] / 1e6), life(point["life_years"])]
 
 
 def test_life_along_the_weld_equals_the_table(page, result_folder):
@@ -118,7 +119,7 @@ def test_units_are_in_the_axes_and_columns(page):
         for axis, given in fig["layout"].items():
             title = given.get("title", {}).get("text", "") if axis.startswith(("xaxis", "yaxis")) else ""
             assert not title or "[" in title, f"{name}: {title}"
-    assert "life [km]" in page.tables["worst-welds"][0]
+    assert "life [million km]" in page.tables["worst-welds"][0]
     assert "life [years]" in page.tables["worst-welds"][0]
 
 
@@ -140,7 +141,7 @@ def test_a_spoiled_result_is_noticed(tmp_path):
 def test_lives_under_other_assumptions(page):
     """Mean curve above, mean minus three sigma below, and the used choices at factor 1."""
     rows = {row[1]: row for row in page.tables["weld-1-variants"][1:]}
-    assert rows["mean-2sigma (used)"][4] == "1.000"
+    assert rows["mean-2sigma (used)"][4] == "1.00"
     assert float(rows["mean"][4]) < 1.0 < float(rows["mean-3sigma"][4])
     assert float(rows["ASME, at least 16 mm"][4]) > 1.0
 

@@ -43,7 +43,7 @@
     const types = { f4: Float32Array, f8: Float64Array, i4: Int32Array, u2: Uint16Array, u1: Uint8Array };
     return new types[dtype](bytes.buffer);
   };
-  const digits = (x, most = 4) => {  // as wording.number does
+  const digits = (x, most = 3) => {  // as wording.number does
     if (Number.isNaN(x)) return "–";
     if (x > 1e12) return "> 1e12";
     if (x === 0) return "0";

@@ -307,7 +307,7 @@ def test_warnings_and_files_of_the_channels_are_shown(ridden_page):
     assert "short channel : <u>bogie</u> : it covers 90 % of the event" in ridden_page.words
     head, *rows = ridden_page.tables["ride-channels"]
     assert len(rows) == 6
-    assert rows[0][head.index("rate [Hz]")] == "200.0"
+    assert rows[0][head.index("rate [Hz]")] == "200"
     assert rows[0][-1] == 64 * "a"
 
 

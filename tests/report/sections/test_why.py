@@ -132,7 +132,7 @@ def test_the_page_shows_who_makes_the_damage(diagnosed_page):
     assert figures["weld-1-damage-modes"]["layout"]["yaxis"]["ticktext"][-1] == "unit load tunnel"
     assert diagnosed_page.tables["weld-1-levers"][0][0] == "mode or unit load"
     assert [row[0] for row in diagnosed_page.tables["weld-1-levers"][1:]] == ["1", "tunnel"]
-    assert "load −3.600 %" in diagnosed_page.words
+    assert "load −3.60 %" in diagnosed_page.words
 
 
 def test_the_variance_gives_way_to_the_damage(diagnosed_page, page):
