@@ -139,6 +139,7 @@ def test_what_the_bound_leaves_out():
 
 
 def test_powers_that_exceed_double_precision_bound_nothing_and_say_so() -> None:
+    """Overflow in a power of the path gives an infinite integral, without an error of arithmetic."""
     path = np.array([[[0.0, 1e160, 0.0], [0.0, 1.0, 0.0]], [[0.0, 0.0, 0.0], [0.0, 0.0, 0.0]]])
     with np.errstate(over="raise", invalid="raise"):
         integrals = power_integrals(path)
