@@ -51,7 +51,6 @@ from fatigue.results import (
     PAGE,
     PICTURE,
     RECOUNT,
-    read_provenance,
     recorded,
     write_json,
     write_list,
@@ -64,9 +63,9 @@ from fatigue.stages import stage
 
 log = logging.getLogger(__name__)
 
-POINTS_RECOUNTED = 20  # beside the worst one of each weld, as `fatigue verify --results` by default
 SCREEN = "Leave out --screen (share), or give method = 'report'"
 
+Recounting: TypeAlias = Callable[[Path, Path], Mapping[str, Any]]
 Verification: TypeAlias = Sequence[Mapping[str, Any]] | Callable[[], Sequence[Mapping[str, Any]]]
 
 
@@ -102,7 +101,7 @@ def assess(
     force: bool = False,
     report: bool = True,
     no_lock: bool = False,
-    recounts: bool = False,
+    recount: Recounting | None = None,
     verification: Verification = (),
     progress: Progress = lambda label, done, total: None,
 ) -> Assessment:
@@ -128,8 +127,8 @@ def assess(
     report : write the report and the ParaView file as well
     no_lock : for a file system without locks: trust that no other run writes to the folder, and that a lock file left
         by a run that was killed is removed by hand
-    recounts : count points of the result once more by independent code, as ``fatigue.verify.recount``, keep the outcome
-        beside the result and show it in the report
+    recount : counts points of the result once more by independent code, as ``fatigue.verify.recount.outcome_of``; what
+        it returns is kept beside the result and shown in the report
     verification : checks of the program to show in the report, as ``fatigue.verify`` gives them, or what computes them
     progress : called with a label, stations done and stations in all
 
@@ -188,7 +187,7 @@ def assess(
             record = {"program": "fatigue", "result": key} | provenance_record(
                 body, work, done.stations, folder, inputs.register, warnings, gravity, done.shear.statuses
             )
-            writers = _writers(case, verification, report=report, recounts=recounts)
+            writers = _writers(case, verification, recount, report=report)
             write_records(unpublished, record | issued({"result": key}, identity), writers)
             stage("putting the result in place")
             inputs.refuse_replaced()
@@ -196,7 +195,7 @@ def assess(
             publish(unpublished, folder, stale_files(folder, own))
             log.info("the result is complete")
     fulfilled = done.fulfilled and done.checks.fulfilled
-    return Assessment(folder, fulfilled, warnings, done.groups, done.reused, _has_passed(folder) if recounts else None)
+    return Assessment(folder, fulfilled, warnings, done.groups, done.reused, _has_passed(folder) if recount else None)
 
 
 def foretold(size: JobSize, folder: Path) -> str:
@@ -256,11 +255,11 @@ def order_of(case: Case, work: Work, options: ScreeningOptions, key: str, *, str
 
 
 def _writers(
-    case: Case, verification: Verification, *, report: bool, recounts: bool
+    case: Case, verification: Verification, recount: Recounting | None, *, report: bool
 ) -> Iterator[Callable[[Path], list[Path]]]:
     """What writes the documents of a result, a recount before the page that shows it."""
-    if recounts:
-        yield partial(write_recount, case=case)
+    if recount is not None:
+        yield partial(write_recount, case=case, recount=recount)
     if report:
         yield partial(write_page_and_picture, case=case, verification=verification)
 
@@ -280,13 +279,10 @@ def write_records(folder: Path, record: Mapping[str, Any], writers: Iterable[Cal
     write_provenance(folder, recorded(record, [*documents, listed]))
 
 
-def write_recount(folder: Path, case: Case) -> list[Path]:
+def write_recount(folder: Path, case: Case, recount: Recounting) -> list[Path]:
     """Recount a result that is not published yet, and write the outcome beside its tables."""
-    from fatigue.verify.recount import outcome, recount  # noqa: PLC0415 - who recounts nothing need not load it
-
     stage("recounting from the input files")
-    found, result = recount(folder, sample=POINTS_RECOUNTED, case_file=case.path), read_provenance(folder)["result"]
-    write_json(folder / RECOUNT, outcome(found, result))
+    write_json(folder / RECOUNT, recount(folder, case.path))
     return [folder / RECOUNT]
 
 

@@ -7,8 +7,8 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from fatigue.digits import as_given, results
 from fatigue.shown import shortened, visible
+from fatigue.shown.digits import as_given, results
 
 LONGEST = 1e12  # lives beyond are written as "> 1e12"
 LIFE_DIGITS = 3

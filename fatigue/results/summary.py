@@ -28,6 +28,7 @@ from fatigue.results.provenance import curves_of_status, read_provenance
 from fatigue.results.rows import read_rows, worst_toes
 from fatigue.results.weld_table import assessed, not_assessed, read_welds
 from fatigue.shown import few, shortened, visible
+from fatigue.shown.digits import MILLION, as_given, in_millions, lives, results
 
 LONGEST_LIFE_KM = 1e12  # printed as "> 1e12 km"
 MOST_WELDS = 200  # printed: a train has thousands
@@ -43,7 +44,7 @@ _POINT_COLUMNS = (
 
 
 _WELD_COLUMNS = ("weld", "life_km", "life_years", "utilisation", "load_factor", "node", "face", "governing_event")
-_LIFE_COLUMNS = ("life_km", "life_years", "life_km_dirlik", "50_percent_km", "90_percent_km")  # with three digits
+_LIFE_COLUMNS = ("life_km", "life_years", "life_km_dirlik", "50_percent_km", "90_percent_km")
 
 _ACROSS = {
     "damage_per_km_transitions": "Cycles across the events of the sequences are",
@@ -87,7 +88,7 @@ class Summary:
         }
 
     def as_text(self) -> str:
-        """Text for people: units in every heading, four digits, three of lives, no infinities."""
+        """Text for people: units in every heading, one notation down a column, three digits, no infinities."""
         missed = int((~self.welds["fulfilled"]).sum())
         verdict = (
             "every weld meets its target" if not missed else f"{missed} of {len(self.welds)} welds miss their target"
@@ -181,9 +182,12 @@ class Summary:
         shown = self.welds.head(MOST_BANDS)
         found = self.bands.of_points(shown, "worst_")
         table = {"weld": shown["weld"].tolist(), "life_km": shown["life_km"].tolist()}
-        table["90_percent_band_of_load_km"] = [_band(band) for band in found]
-        for name, column in (("50_percent_km", "life_km_p50"), ("90_percent_km", "life_km_p90")):
-            table[name] = [math.nan if band is None else band.lives_km[column] for band in found]
+        name, scale = "90_percent_band_of_load_km", 1.0
+        if in_millions(end for band in found if band is not None for end in (band.low_km, band.high_km)):
+            name, scale = _in_millions(name), MILLION
+        table[name] = [_band(band, scale) for band in found]
+        for share, column in (("50_percent_km", "life_km_p50"), ("90_percent_km", "life_km_p90")):
+            table[share] = [math.nan if band is None else band.lives_km[column] for band in found]
         has_lives = any(band is not None and band.has_lives for band in found)
         columns = list(table) if has_lives else list(table)[:3]
         of_line = [math.nan if band is None else band.line_survival for band in found]
@@ -303,11 +307,11 @@ def assumptions(record: dict[str, Any]) -> str:
 def _flipping(found: Sensitivity) -> list[str]:
     """Table of the welds whose verdict changes, one column a variant under which any does, and what these mean."""
     welds, variants = found.flipping[:MOST_LEFT_OUT], found.changing
-    table: dict[str, list[str]] = {"weld": welds, "as assessed": [_cell(float(found.assessed[w])) for w in welds]}
+    table: dict[str, list[str]] = {"weld": welds, "as assessed": [_result(float(found.assessed[w])) for w in welds]}
     for name in variants:
         rows = found.under(name).loc[welds]
         table[name] = [
-            in_words(row.utilisation, row.basis, row.fulfilled, _cell) + "*" * bool(row.flips)
+            in_words(row.utilisation, row.basis, row.fulfilled, _result) + "*" * bool(row.flips)
             for row in rows.itertuples()
         ]
     others = len(found.flipping) - len(welds)
@@ -318,20 +322,25 @@ def _flipping(found: Sensitivity) -> list[str]:
     ]
 
 
+def _result(value: float) -> str:
+    """A number that was computed, alone."""
+    return results([value], "")[0].replace("−", "-").replace("–", "-")
+
+
 def _joins_events(record: dict[str, Any]) -> bool:
     """Whether cycles across events are counted, or bounded because their order is not known."""
     mission = record["mission"]
     return bool(mission.get("sequences")) or any(e.get("stints_per_1000_km") is not None for e in mission["events"])
 
 
-def _band(found: BandOfPoint | None) -> str:
-    """Band of a life by the load in a cell, or why there is none."""
+def _band(found: BandOfPoint | None, scale: float) -> str:
+    """Band of a life by the load in a cell, in ``scale`` km, or why there is none."""
     if found is None:
         return "-"
     said = SHORT_REASONS.get(found.reason, "")
     if not found.has_band:
         return said
-    return f"{said} {_life(found.low_km)} to {_life(found.high_km)}".strip()
+    return f"{said} {' to '.join(results([found.low_km / scale, found.high_km / scale], ''))}".strip()
 
 
 def _range(low: float, high: float) -> str:
@@ -340,16 +349,8 @@ def _range(low: float, high: float) -> str:
 
 
 def _text_table(frame: pd.DataFrame, columns: Sequence[str]) -> str:
-    cells = [
-        list(columns),
-        *(
-            [
-                _cell(value) if name in UNCUT else shortened(_life(value) if name in _LIFE_COLUMNS else _cell(value))
-                for name, value in zip(columns, row, strict=True)
-            ]
-            for row in frame[list(columns)].itertuples(index=False)
-        ),
-    ]
+    columned = [_column(name, frame[name]) for name in columns]
+    cells = [[heading for heading, _ in columned], *zip(*(texts for _, texts in columned), strict=True)]
     widths = [max(len(row[i]) for row in cells) for i in range(len(columns))]
     numeric = [pd.api.types.is_numeric_dtype(frame[name]) for name in columns]
     return "\n".join(
@@ -358,10 +359,23 @@ def _text_table(frame: pd.DataFrame, columns: Sequence[str]) -> str:
     )
 
 
-def _life(value: Any) -> str:
-    """A life in a cell: three digits, the fourth is far below its scatter."""
-    rounds = isinstance(value, float) and value <= LONGEST_LIFE_KM
-    return _cell(float(f"{value:.3g}") if rounds else value)
+def _column(name: str, values: "pd.Series[Any]") -> tuple[str, list[str]]:
+    """Heading and cells of a column, numbers in one unit and one notation; see ``fatigue.shown.digits``."""
+    if not pd.api.types.is_float_dtype(values):
+        return name, [_cell(value) if name in UNCUT else shortened(_cell(value)) for value in values]
+    numbers = values.to_numpy(dtype=float, na_value=math.nan).tolist()
+    if name not in _LIFE_COLUMNS or name.endswith("_years"):
+        texts = as_given(numbers, "") if name.endswith("_mm") else results(numbers, "")
+    else:
+        texts, unit = lives(numbers, "")
+        name = name if unit == "km" else _in_millions(name)
+    return name, [text.replace("−", "-").replace("–", "-") for text in texts]
+
+
+def _in_millions(name: str) -> str:
+    """Name of a column of lives in millions of km."""
+    head, _, tail = name.rpartition("_km")
+    return f"{head}_million_km{tail}"
 
 
 def _cell(value: Any) -> str:

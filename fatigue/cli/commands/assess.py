@@ -147,6 +147,9 @@ def assess(
     from fatigue.pipeline.run.cluster import cluster_executor
     from fatigue.results.summary import result_summary
 
+    if recounts:
+        from fatigue.verify.recount import outcome_of
+
     workers = cluster_executor(scheduler) if scheduler else nullcontext()
     with narrated(quiet=options["quiet"]) as progress, workers as executor:
         done = run(
@@ -163,7 +166,7 @@ def assess(
             force=force,
             report=not no_report,
             no_lock=no_lock,
-            recounts=recounts,
+            recount=outcome_of if recounts else None,
             verification=tuple if no_report else known_values,
             progress=progress,
         )

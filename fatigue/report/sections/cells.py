@@ -8,10 +8,9 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 import pandas as pd
 
-from fatigue import digits
 from fatigue.report.wording import NOT_AVAILABLE, number, share, whole
 from fatigue.report.wording import life as in_words
-from fatigue.shown import shortened
+from fatigue.shown import digits, shortened
 
 LONGEST_TEXT = 400  # letters of a cell: a name of thousands would be a page of its own
 Written: TypeAlias = Literal["", "result", "life", "given"]
@@ -54,7 +53,7 @@ class PageTable:
 
     @property
     def shown(self) -> "PageTable":
-        """The same table with one unit and one notation down every column of numbers; see ``fatigue.digits``."""
+        """The same table with one unit and one notation down every column of numbers; see ``fatigue.shown.digits``."""
         if not (self.rows and self.headings):
             return self
         columns = [_column(*column) for column in zip(self.headings, zip(*self.rows, strict=True), strict=True)]

@@ -6,7 +6,7 @@ for the same thing as a class of the program has its name with ``Recount`` befor
 """
 
 from fatigue.verify.recount.folder import recount
-from fatigue.verify.recount.kept import keep, outcome
+from fatigue.verify.recount.kept import keep, outcome_of
 from fatigue.verify.recount.stored.compare import ColumnCheck, Recount
 
-__all__ = ["ColumnCheck", "Recount", "keep", "outcome", "recount"]
+__all__ = ["ColumnCheck", "Recount", "keep", "outcome_of", "recount"]

@@ -8,6 +8,7 @@ from fatigue.results import RECOUNT, read_provenance, relist, software_versions,
 from fatigue.results.belonging import MARK
 from fatigue.results.lock import locked
 from fatigue.results.publish import publish, staging_in
+from fatigue.verify.recount.folder import recount
 from fatigue.verify.recount.stored.compare import Recount
 
 
@@ -16,6 +17,17 @@ def outcome(found: Recount, result: str) -> dict[str, Any]:
     record = found.as_record()
     del record["folder"]
     return {"program": "fatigue", MARK: result, "software": software_versions(), **record}
+
+
+def outcome_of(folder: Path, case_file: Path, sample: int = 20) -> dict[str, Any]:
+    """Record of a recount of a result, perhaps not published yet, as ``fatigue verify --results`` makes it.
+
+    Raises
+    ------
+    DataError : inputs that are missing or changed since
+    """
+    found = recount(folder, sample=sample, case_file=case_file)
+    return outcome(found, read_provenance(folder)["result"])
 
 
 def keep(folder: Path, found: Recount, record: Mapping[str, Any]) -> None:

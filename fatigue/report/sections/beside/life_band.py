@@ -6,7 +6,6 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from fatigue import digits
 from fatigue.report.result import ShownResult
 from fatigue.report.sections.cells import Cell, Heading, PageTable, life, linked, num
 from fatigue.report.wording import NOT_AVAILABLE, life_in_band, life_km, share
@@ -21,6 +20,7 @@ from fatigue.results.beside.life_band import (
     read_bands,
     worst_of,
 )
+from fatigue.shown import digits
 
 MOST = 20  # welds with their row; the others are in the table of the result
 SURVIVALS = {"life_km_p50": "50 %", "life_km_p90": "90 %", "life_km_p97_7": "97.7 %", "life_km_p99": "99 %"}

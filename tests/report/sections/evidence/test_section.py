@@ -8,7 +8,7 @@ from fatigue.assess import assess
 from fatigue.report.page import report_page
 from fatigue.report.sections.evidence.recount import read_recount
 from fatigue.results import RECOUNT, read_provenance, strangers, write_provenance
-from fatigue.verify.recount import keep, recount
+from fatigue.verify.recount import keep, outcome_of, recount
 from tests.command_line import fatigue
 from tests.report.reading import Page
 from tests.small_case import sine_only
@@ -18,7 +18,7 @@ from tests.small_case import sine_only
 def verified(tmp_path_factory):
     """A case, and its result with a recount."""
     folder = tmp_path_factory.mktemp("evidence")
-    assess(sine_only().write(folder / "case"), folder / "result", recounts=True)
+    assess(sine_only().write(folder / "case"), folder / "result", recount=outcome_of)
     return folder
 
 

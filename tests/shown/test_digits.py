@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fatigue.digits import LARGEST, as_given, in_millions, lives, results
+from fatigue.shown.digits import LARGEST, as_given, in_millions, lives, results
 
 sizes = st.floats(min_value=1e-9, max_value=1e12)
 numbers = st.one_of(sizes, sizes.map(lambda x: -x), st.just(0.0), st.just(math.inf), st.just(math.nan))
