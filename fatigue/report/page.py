@@ -28,6 +28,7 @@ from fatigue.report.sections.details import weld_details
 from fatigue.report.sections.embed import Figures
 from fatigue.report.sections.formation.section import formation_section
 from fatigue.report.sections.load_spectra import read_load_spectra, spectra_warnings, spectra_words
+from fatigue.report.sections.places.section import places
 from fatigue.report.sections.point.detail import Detail
 from fatigue.report.sections.ride.read import read_ride
 from fatigue.report.sections.ride.section import ride_section, ride_warnings
@@ -44,7 +45,6 @@ MOST_DETAILED = 40  # welds with their own figures; the others have their rows a
 MOST_STATIONS = 100_000  # on the lines that are drawn; beyond, only lines of the worst welds are
 MOST_LISTED = 2000  # welds in the register of the page
 LONGEST_PLACE = 20_000  # letters of the place of a warning: a warning about many welds names them all
-WORST_POINTS = 50
 
 
 def write_report(
@@ -87,7 +87,7 @@ def report_page(
     """Return the page as text; see ``write_report``."""
     folder = given_path(folder, "folder")
     case_path = None if case_path is None else given_path(case_path, "case_path")
-    result = read_result(folder, MOST_DETAILED, MOST_STATIONS, WORST_POINTS)
+    result = read_result(folder, MOST_DETAILED, MOST_STATIONS)
     record = result.record
     inputs = find_inputs(record, folder, case_path)
     missing: list[Problem] = []
@@ -101,6 +101,7 @@ def report_page(
         log.warning("the report may be outdated: %s", problem)
     links = {weld: f"weld-{i}" for i, weld in enumerate(result.detailed, start=1)}
     unverified, bands = of_toes(result), bands_of(result)
+    lines = body_sections.drawn_lines(result)
     figs = Figures(mark=figure_mark(unverified, len(result.assessed)))
     context = {
         "title": record["title"],
@@ -118,10 +119,10 @@ def report_page(
         "worst_welds": marked(tables.weld_table(result.assessed, links), unverified),
         **life_band_section(result, bands, links),
         **sensitivity(result, links),
-        "worst_ten": marked(tables.point_table(result.worst_points, links, 10, "worst-ten"), unverified),
+        "places": places(result, lines, links, unverified),
         # figures are numbered in the order of these lines, the order of the page
         "weld_lives": body_sections.lives(result, figs),
-        **body_sections.where(result, body, links, figs),
+        **body_sections.where(result, lines, body, figs),
         **body_sections.causes(result, why, figs),
         **transitions(result, links),
         **formation_section(why, result, links),
@@ -135,11 +136,9 @@ def report_page(
         **beside(result, checks, links),
         "spectra_words": spectra_words(spectra),
         **body_sections.domains(result, figs),
+        "assessed": len(result.assessed),
         "undetailed": len(result.assessed) - len(result.detailed),
         "undrawn": len(result.assessed) - len(result.drawn),
-        "worst_points": marked(
-            tables.point_table(result.worst_points, links, WORST_POINTS, "worst-points", "Find a point"), unverified
-        ),
         "register": marked(tables.register_table(_listed(result), links), unverified),
         "unlisted": max(0, len(result.assessed) - MOST_LISTED),
         "events": tables.event_table(result.events, record["rules"]["residue"], steps),

@@ -226,3 +226,31 @@ def test_the_page_prints_on_numbered_pages(chromium, report, tmp_path):
     assert "Prepared" in pages[0]
     assert "<script>alert(1)</script>" in text
     assert "arc length [mm]" in text
+
+
+def test_every_point_is_found(opened):
+    """Words, a node, a least utilisation and only the worst of hot spots; the rows link to their weld."""
+    opened.locator("#all-points").scroll_into_view_if_needed()
+    opened.wait_for_selector("#found-points tbody tr")
+    shown = "document.getElementById('points-shown').textContent"
+    assert opened.evaluate(shown) == "1 to 20 of 20 points"
+
+    def told(words, least="", only=False):
+        opened.fill("#find-points", words)
+        opened.fill("#from-utilisation", least)
+        opened.set_checked("#only-worst", only)
+        opened.evaluate("document.getElementById('points-shown').textContent = ''")
+        opened.wait_for_function(f"{shown} !== ''")
+        return opened.evaluate(shown)
+
+    assert told("bracket bottom") == "1 to 5 of 5 points"
+    assert told("1003") == "1 to 2 of 2 points"
+    assert told("", only=True) == "1 to 4 of 4 points"
+    assert told("no such weld") == "no point like this"
+    assert told("", least="1e9") == "no point like this"
+    assert told("bracket") == "1 to 10 of 10 points"
+    first = opened.inner_text("#found-points tbody tr:first-child")
+    spot = opened.inner_text("#hot-spots tbody tr:first-child")
+    assert first.split("\t")[5:10] == spot.split("\t")[5:10]
+    assert opened.get_attribute("#found-points tbody a", "href") == "#weld-1"
+    told("")
