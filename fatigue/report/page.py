@@ -28,6 +28,7 @@ from fatigue.report.sections.details import weld_details
 from fatigue.report.sections.embed import Figures
 from fatigue.report.sections.formation.section import formation_section
 from fatigue.report.sections.load_spectra import read_load_spectra, spectra_warnings, spectra_words
+from fatigue.report.sections.places.paper import all_passed, on_paper
 from fatigue.report.sections.places.section import places
 from fatigue.report.sections.point.detail import Detail
 from fatigue.report.sections.ride.read import read_ride
@@ -101,6 +102,7 @@ def report_page(
         log.warning("the report may be outdated: %s", problem)
     links = {weld: f"weld-{i}" for i, weld in enumerate(result.detailed, start=1)}
     unverified, bands = of_toes(result), bands_of(result)
+    paper = on_paper(result, unverified)
     lines = body_sections.drawn_lines(result)
     figs = Figures(mark=figure_mark(unverified, len(result.assessed)))
     context = {
@@ -129,7 +131,7 @@ def report_page(
         **ride_section(ridden, links, figs),
         **shift_study(folder, result, figs),
         "pages": [
-            weld_page(result, weld, details.get(weld), why, spectra, checks, bands, figs, links[weld])
+            weld_page(result, weld, details.get(weld), why, spectra, checks, bands, figs, links[weld], paper.welds)
             for weld in result.detailed
         ],
         **shear(result, links),
@@ -137,6 +139,7 @@ def report_page(
         "spectra_words": spectra_words(spectra),
         **body_sections.domains(result, figs),
         "assessed": len(result.assessed),
+        "paper": paper,
         "undetailed": len(result.assessed) - len(result.detailed),
         "undrawn": len(result.assessed) - len(result.drawn),
         "register": marked(tables.register_table(_listed(result), links), unverified),
@@ -148,6 +151,7 @@ def report_page(
         "rules": method.rules(record),
         "checks": recomputed(result),
         "verification": tables.verification_table(verification),
+        "verified": all_passed(verification),
         "inputs": tables.input_table(record["inputs"]),
         "audit": tables.audit_table(record.get("conversion")),
     }

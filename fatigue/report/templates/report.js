@@ -14,6 +14,15 @@
     document.head.append(script);
   };
 
+  // Figures are numbered as they are seen: some are on the screen only, others on paper only.
+  const number = (unseen) => {
+    let n = 0;
+    document.querySelectorAll("figure").forEach((figure) => {
+      const label = figure.querySelector("figcaption b");
+      if (label && !figure.closest(unseen)) label.textContent = label.textContent.replace(/\d+/, () => String(++n));
+    });
+  };
+
   // Figures are drawn when they come into view, all at once for paper.
   const forPaper = (plot) => !plot.closest(".screen");
   const fit = (plot) => {
@@ -227,12 +236,14 @@
   const prepare = () => {
     start();
     onPaper = true;
+    number(".screen");
     document.querySelectorAll("details").forEach((d) => { d.open = true; });
     plots.filter(forPaper).forEach((plot) => (plot.dataset.drawn ? Plotly.relayout(plot, { width: fit(plot) }) : draw(plot)));
   };
   addEventListener("beforeprint", () => { if (!onPaper) prepare(); });
   addEventListener("afterprint", () => {
     onPaper = false;
+    number(".paper");
     plots.filter((plot) => plot.dataset.drawn).forEach((plot) => {
       plot.style.zoom = "";
       Plotly.relayout(plot, { width: null, autosize: true });
@@ -240,6 +251,7 @@
   });
   if (onPaper) prepare();
   else {
+    number(".paper");
     open();
     requestAnimationFrame(() => setTimeout(() => {
       start();
