@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from html.parser import HTMLParser
 
 import numpy as np
+import pytest
 
 _SILENT = {"script", "style"}
 
@@ -93,3 +94,10 @@ def inflated(packed):
         columns[name] = np.ascontiguousarray(planes.T).view(f"<{code}").reshape(rows)
         start += rows * size
     return columns
+
+
+def cells_of(path, name):
+    """Cells of a sheet of a workbook by their address, the empty ones left out; skips where openpyxl is missing."""
+    openpyxl = pytest.importorskip("openpyxl")
+    rows = openpyxl.load_workbook(path)[name].iter_rows()
+    return {cell.coordinate: cell.value for row in rows for cell in row if cell.value is not None}

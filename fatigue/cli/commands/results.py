@@ -49,6 +49,7 @@ def show(folder: Path, top: int, welds: tuple[str, ...], as_json: bool) -> None:
 @click.option("--pdf", is_flag=True, help="Print report.pdf as well, with an installed Chromium, Chrome or Edge.")
 @click.option("--xlsx", is_flag=True, help="Write nodes.xlsx as well (package `xlsxwriter`).")
 @click.option("--csv", is_flag=True, help="Write the tables as CSV as well.")
+@click.option("--bom", is_flag=True, help="Begin the CSV files with a byte order mark, by which Excel tells UTF-8.")
 @click.option("--case", "case_file", type=CASE, help="Case file, if it is not where the result says.")
 @click.option("--force", is_flag=True, help="Overwrite PDF, workbook and CSV files that are there already.")
 @no_lock
@@ -59,6 +60,7 @@ def report(
     pdf: bool,
     xlsx: bool,
     csv: bool,
+    bom: bool,
     case_file: Path | None,
     force: bool,
     no_lock: bool,
@@ -70,8 +72,11 @@ def report(
     \b
     Examples:
       fatigue report result --pdf --xlsx
+      fatigue report result --csv --bom
       fatigue report result --case body/case.toml
     """
+    if bom and not csv:
+        raise click.UsageError("--bom is about CSV files: give --csv as well.")
     refuse_missing_result(folder, case_file, no_lock=no_lock)
     from fatigue.documents import AGAIN, CSV, write_documents
     from fatigue.results import PRINT, WORKBOOK
@@ -80,7 +85,7 @@ def report(
     wanted = [*AGAIN, *[WORKBOOK] * xlsx, *CSV * csv, *[PRINT] * pdf]
     with narrated(quiet=options["quiet"]), damage_told(folder):
         done = write_documents(
-            folder, wanted, case_file=case_file, verification=known_values, force=force, no_lock=no_lock
+            folder, wanted, case_file=case_file, verification=known_values, force=force, no_lock=no_lock, bom=bom
         )
     for path in done.written:
         say(path)
