@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from fatigue.errors import DataError, Problem, refuse
+from fatigue.report.files.body import write_body
 from fatigue.report.files.browser import find_browser
 from fatigue.report.files.export import write_csv
 from fatigue.report.files.pdf import print_pdf
@@ -19,6 +20,7 @@ from fatigue.report.files.vtp import write_vtp
 from fatigue.report.files.workbook.book import refuse_without_xlsxwriter, write_xlsx
 from fatigue.report.page import write_report
 from fatigue.results import (
+    BODY,
     CSV_TABLES,
     DOCUMENTS,
     PAGE,
@@ -100,6 +102,7 @@ def write_documents(
         writers: dict[str, Callable[[], object]] = {
             PAGE: lambda: write_report(folder, case_file, checks, staging),
             PICTURE: lambda: write_vtp(folder, staging),
+            BODY: lambda: write_body(folder, case_file, staging),
             WORKBOOK: lambda: write_xlsx(folder, staging),
             CSV[0]: lambda: write_csv(folder, staging, bom=bom),
             PRINT: lambda: _print(folder, staging, record.get("result", "")),
