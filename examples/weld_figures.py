@@ -37,4 +37,4 @@ domains = figures.time_against_frequency(nodes.merge(governing, on=[*key, "gover
 
 # %% A notebook shows a figure by its name; here each goes to a page. The configuration keeps plotly from uploading.
 for name, figure in {"lives": lives, "along": along, "ranges": ranges, "domains": domains}.items():
-    figure.write_html(result / f"figure_{name}.html", config=figures.CONFIG, include_plotlyjs="directory")
+    figure.plotly().write_html(result / f"figure_{name}.html", config=figures.CONFIG, include_plotlyjs="directory")

@@ -6,8 +6,9 @@ events turn this stress into cycles, damage and life. What is finished lies besi
 it is put in place in one step, so that a folder never holds half a result.
 """
 
+import json
 import logging
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from functools import partial
@@ -45,10 +46,14 @@ from fatigue.pipeline.tables.tally import Progress, Tally, body_warnings
 from fatigue.pipeline.tables.written import write_tables
 from fatigue.readers.neutral.spare_memory import give_back
 from fatigue.report.files.vtp import write_vtp
+from fatigue.report.identity.identity import identity_of, issued
 from fatigue.results import (
     PAGE,
     PICTURE,
+    RECOUNT,
+    read_provenance,
     recorded,
+    write_json,
     write_list,
     write_provenance,
 )
@@ -59,6 +64,7 @@ from fatigue.stages import stage
 
 log = logging.getLogger(__name__)
 
+POINTS_RECOUNTED = 20  # beside the worst one of each weld, as `fatigue verify --results` by default
 SCREEN = "Leave out --screen (share), or give method = 'report'"
 
 Verification: TypeAlias = Sequence[Mapping[str, Any]] | Callable[[], Sequence[Mapping[str, Any]]]
@@ -70,7 +76,7 @@ class Assessment:
 
     ``groups`` of welds were assessed, ``groups_reused`` of them by an earlier run that was interrupted. Of
     ``warnings`` of one code the first are there one by one; one more stands for the others, ``count`` of them, and
-    names their welds.
+    names their welds. ``recount_passed`` says whether a recount by independent code agreed, None where none was made.
     """
 
     folder: Path
@@ -78,6 +84,7 @@ class Assessment:
     warnings: tuple[Problem, ...]
     groups: int
     groups_reused: int
+    recount_passed: bool | None = None
 
 
 def assess(
@@ -95,6 +102,7 @@ def assess(
     force: bool = False,
     report: bool = True,
     no_lock: bool = False,
+    recounts: bool = False,
     verification: Verification = (),
     progress: Progress = lambda label, done, total: None,
 ) -> Assessment:
@@ -120,6 +128,8 @@ def assess(
     report : write the report and the ParaView file as well
     no_lock : for a file system without locks: trust that no other run writes to the folder, and that a lock file left
         by a run that was killed is removed by hand
+    recounts : count points of the result once more by independent code, as ``fatigue.verify.recount``, keep the outcome
+        beside the result and show it in the report
     verification : checks of the program to show in the report, as ``fatigue.verify`` gives them, or what computes them
     progress : called with a label, stations done and stations in all
 
@@ -132,14 +142,14 @@ def assess(
     case, folder = given_case(case), given_path(folder, "folder")
     refuse(CaseError, _screened_shear(case, share))
     settle_folder(folder, no_lock=no_lock)
-    own = input_paths(case)
+    own, identity = input_paths(case), identity_of(case)  # a logo that is unfit is refused before hours are spent
     refuse_foreign(folder, force=force, case_file=case.path, inputs=own)
     stage("reading and checking the case")
     (body, plan, record_warnings), inputs = with_inputs(
         case, partial(read_case, case, threads, strict=strict, require_verified=require_verified)
     )
     options = ScreeningOptions(share, proves_worst, histogram, precision)
-    key = key_of(inputs.register, options)
+    key = key_of(case, inputs.register, options)
 
     # another run may have been there meanwhile
     claim = claimed(folder, force=force, case_file=case.path, inputs=own, no_lock=no_lock)
@@ -178,15 +188,15 @@ def assess(
             record = {"program": "fatigue", "result": key} | provenance_record(
                 body, work, done.stations, folder, inputs.register, warnings, gravity, done.shear.statuses
             )
-            documents = partial(write_page_and_picture, case=case, verification=verification)
-            write_records(unpublished, record, documents if report else None)
+            writers = _writers(case, verification, report=report, recounts=recounts)
+            write_records(unpublished, record | issued({"result": key}, identity), writers)
             stage("putting the result in place")
             inputs.refuse_replaced()
             refuse_foreign(folder, force=force, case_file=case.path, inputs=own)  # edited while this run was going on
             publish(unpublished, folder, stale_files(folder, own))
             log.info("the result is complete")
     fulfilled = done.fulfilled and done.checks.fulfilled
-    return Assessment(folder, fulfilled, warnings, done.groups, done.reused)
+    return Assessment(folder, fulfilled, warnings, done.groups, done.reused, _has_passed(folder) if recounts else None)
 
 
 def foretold(size: JobSize, folder: Path) -> str:
@@ -245,18 +255,44 @@ def order_of(case: Case, work: Work, options: ScreeningOptions, key: str, *, str
     return Order(str(case.path.resolve()), strict, options, key, work.factors, group=0)
 
 
-def write_records(
-    folder: Path, record: Mapping[str, Any], write_documents: Callable[[Path], list[Path]] | None
-) -> None:
+def _writers(
+    case: Case, verification: Verification, *, report: bool, recounts: bool
+) -> Iterator[Callable[[Path], list[Path]]]:
+    """What writes the documents of a result, a recount before the page that shows it."""
+    if recounts:
+        yield partial(write_recount, case=case)
+    if report:
+        yield partial(write_page_and_picture, case=case, verification=verification)
+
+
+def write_records(folder: Path, record: Mapping[str, Any], writers: Iterable[Callable[[Path], list[Path]]]) -> None:
     """Write provenance, documents and their list beside the tables of a result that is not published yet.
 
     The documents are made from tables and provenance, which has their hashes, too, in the end.
     """
     record = recorded(record, sorted(folder.glob("*.parquet")))
     write_provenance(folder, record)
-    documents = write_documents(folder) if write_documents else []
+    documents: list[Path] = []
+    for write in writers:
+        documents += write(folder)
+        write_provenance(folder, recorded(record, documents))
     listed = write_list(folder, documents, record["result"])
     write_provenance(folder, recorded(record, [*documents, listed]))
+
+
+def write_recount(folder: Path, case: Case) -> list[Path]:
+    """Recount a result that is not published yet, and write the outcome beside its tables."""
+    from fatigue.verify.recount import outcome, recount  # noqa: PLC0415 - who recounts nothing need not load it
+
+    stage("recounting from the input files")
+    found, result = recount(folder, sample=POINTS_RECOUNTED, case_file=case.path), read_provenance(folder)["result"]
+    write_json(folder / RECOUNT, outcome(found, result))
+    return [folder / RECOUNT]
+
+
+def _has_passed(folder: Path) -> bool:
+    """Whether the recount that was kept beside a result agreed with it."""
+    return bool(json.loads((folder / RECOUNT).read_text(encoding="utf-8"))["passed"])
 
 
 def write_page_and_picture(folder: Path, case: Case, verification: Verification) -> list[Path]:

@@ -35,6 +35,7 @@ from fatigue.pipeline.solve.model import solve_group
 from fatigue.pipeline.solve.point_stress import point_stress
 from fatigue.pipeline.solve.weld_groups import weld_groups
 from fatigue.pipeline.tables.warnings.summary import WarningSummary
+from fatigue.report.identity.identity import identity_of
 from fatigue.ride.checked import ChannelLine, checked_channels
 from fatigue.shown import few, visible
 from fatigue.stages import stage
@@ -141,6 +142,7 @@ def check_case(case: Case | Path | str, *, strict: bool = False) -> CheckedCase:
     CaseError, DataError : what an assessment would refuse, this refuses with the same words
     """
     case = given_case(case)
+    identity_of(case)  # refuses a logo or template that is unfit
     stage("reading and checking the case")
     begin = time.process_time()
     body = read_body(case, strict=strict)

@@ -18,6 +18,7 @@ from fatigue.report.files.export import write_csv
 from fatigue.report.files.pdf import print_pdf
 from fatigue.report.files.vtp import write_vtp
 from fatigue.report.files.workbook.book import refuse_without_xlsxwriter, write_xlsx
+from fatigue.report.identity.identity import found_identity, issued
 from fatigue.report.page import write_report
 from fatigue.results import (
     BODY,
@@ -86,13 +87,16 @@ def write_documents(
 
     Raises
     ------
-    DataError : no finished result, tables of different results, another case, or files in the way
+    DataError : no finished result, tables of different results, another case, a logo or template that is unfit, or
+        files in the way
+    CaseError : the case has been edited since, and its table ``[report]`` is wrong
     """
     settle_folder(folder, no_lock=no_lock)
     record = read_provenance(folder)
     refuse_mixed(folder, record)
     case_file = case_of(record, folder) if case_file is None else named_case(record, case_file)
     refuse(DataError, _in_the_way(folder, wanted, record, case_file, force=force))
+    identity = issued(record, found_identity(record, folder, case_file))
     missing = missing_extras(wanted)
     for problem in missing.values():
         log.warning("%s Going on with the others.", problem)
@@ -111,7 +115,7 @@ def write_documents(
             stage("writing %s", "CSV files" if name in CSV else name)
             missing.update(_failed(name, writers[name]))
         files = [staging / name for name in DOCUMENTS if (staging / name).exists()]
-        relist(folder, staging, files)
+        relist(folder, staging, files, identity)
         publish(staging, folder)
     return Documents(tuple(folder / path.name for path in files), tuple(missing.values()))
 

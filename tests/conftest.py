@@ -1,13 +1,16 @@
 """What several tests share: results assessed once per run."""
 
 import os
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import settings
 
 from fatigue.assess import assess
 from fatigue.case import load_case
+from fatigue.report.figures import Figure
 from tests.small_case import small_case
 
 MOST_WORKERS = 8  # each of them holds up to 1 GB
@@ -27,6 +30,20 @@ def pytest_cmdline_main(config: pytest.Config) -> None:
     if is_whole and can_share and config.option.numprocesses is None:
         processors = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
         config.option.numprocesses, config.option.dist = min(MOST_WORKERS, processors), "worksteal"
+
+
+@pytest.fixture(scope="session", autouse=True)
+def checked_figures() -> Iterator[None]:
+    """Every figure that any test puts on a page is checked by plotly: an attribute or value it does not know fails."""
+    content = Figure.content
+
+    def checked(figure: Figure) -> dict[str, Any]:
+        figure.plotly()
+        return content(figure)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Figure, "content", checked)
+        yield
 
 
 @pytest.fixture(scope="session")

@@ -3,11 +3,11 @@
 from collections.abc import Sequence
 
 import numpy as np
-import plotly.graph_objects as go
 from numpy.typing import NDArray
 
 from fatigue.basis.mass.rows import DIRECTIONS, DynamicMass, ModalMass
-from fatigue.report.figures.style import DASHES, QUIET, SERIES, Trace, across, axis, figure, log_axis, single, upright
+from fatigue.report.figures.drawn import Figure, Trace
+from fatigue.report.figures.style import DASHES, QUIET, SERIES, across, axis, figure, log_axis, single, upright
 
 Floats = NDArray[np.float64]
 
@@ -16,7 +16,7 @@ BEYOND = 2.0  # bands of frequency that are shown
 MOST_DECADES = 6.0
 
 
-def summed_masses(rows: Sequence[ModalMass], band_hz: float) -> go.Figure | None:
+def summed_masses(rows: Sequence[ModalMass], band_hz: float) -> Figure | None:
     """Share of the mass that modes up to a frequency carry, one stair for each direction; None without shares."""
     end = BEYOND * band_hz
     data = []
@@ -40,7 +40,7 @@ def summed_masses(rows: Sequence[ModalMass], band_hz: float) -> go.Figure | None
     )
 
 
-def dynamic_masses(rows: Sequence[DynamicMass], band_hz: float) -> go.Figure | None:
+def dynamic_masses(rows: Sequence[DynamicMass], band_hz: float) -> Figure | None:
     """Dynamic mass over frequency: of the whole body where its mass is known, else of its elastic part.
 
     Along x, y, z in one panel, about them in another; None where there is nothing to draw.

@@ -3,9 +3,9 @@
 from collections.abc import Sequence
 
 import numpy as np
-import plotly.graph_objects as go
 
 from fatigue.basis.truncation import ALL, INTERFACE, MOVES, TruncationRow
+from fatigue.report.figures.drawn import Figure
 from fatigue.report.figures.style import QUIET, SERIES, axis, figure, log_axis, upright
 from fatigue.shown import shortened, visible
 
@@ -14,7 +14,7 @@ MOST_RATIO = 1e9  # where longer lives are drawn
 SYMBOL = {ALL: "circle", INTERFACE: "x-thin-open"}
 
 
-def lives_without(rows: Sequence[TruncationRow], band_hz: float) -> go.Figure | None:
+def lives_without(rows: Sequence[TruncationRow], band_hz: float) -> Figure | None:
     """Life of each weld without some modes over its life with all of them; None where nothing damages any weld."""
     known = [row for row in rows if not np.isnan(row.shortest_life_ratio)]
     if not known:

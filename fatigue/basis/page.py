@@ -4,12 +4,11 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-import plotly.graph_objects as go
-
 from fatigue.basis.figures import dynamic_masses, summed_masses
 from fatigue.basis.finding import Finding
 from fatigue.basis.lives_figure import lives_without
 from fatigue.basis.summary import Basis
+from fatigue.report.figures.drawn import Figure
 from fatigue.report.page_text import page_text
 from fatigue.report.rows_table import MOST_ROWS, rows_table
 from fatigue.report.sections.embed import Figures, Shown
@@ -61,7 +60,7 @@ def _figure(finding: Finding, figs: Figures, band_hz: float) -> Shown | None:
     return None if drawn is None else figs.add(finding.table, drawn, caption, wide=True)
 
 
-_DRAWN: dict[str, tuple[Callable[[tuple[Any, ...], float], go.Figure | None], str]] = {
+_DRAWN: dict[str, tuple[Callable[[tuple[Any, ...], float], Figure | None], str]] = {
     "modal_mass": (
         summed_masses,
         "Effective mass of the modes up to a frequency, over the mass or inertia of the body; dotted: the band ends.",

@@ -2,8 +2,9 @@
 
 ``tables`` are the tables of ``case.toml`` as frozen models, ``curves`` and ``checks`` those of S-N curves and of what
 is checked beside the normal stress at the toe, ``unit_loads`` those of loads beside the modes, ``order`` that of the
-order of events, ``life_band`` that of the scatter of lives. ``load`` reads and checks a case file, ``problems`` says
-what is wrong with it in the words of the file, ``plausibility`` what is allowed and hardly meant.
+order of events, ``life_band`` that of the scatter of lives, ``identity`` that of the report. ``load`` reads and checks
+a case file, ``problems`` says what is wrong with it in the words of the file, ``plausibility`` what is allowed and
+hardly meant.
 """
 
 from fatigue.case.checks import (
@@ -16,6 +17,7 @@ from fatigue.case.checks import (
     stress_categories,
 )
 from fatigue.case.curves import Curve, CustomCurve
+from fatigue.case.identity import PEOPLE, Report, numbers_text
 from fatigue.case.life_band import LifeBand
 from fatigue.case.load import case_schema, check_distance, check_files, event_length_km, given_case, load_case
 from fatigue.case.plausibility import case_warnings
@@ -32,6 +34,7 @@ from fatigue.case.tables import (
 
 __all__ = [
     "LARGEST_UPSAMPLE",
+    "PEOPLE",
     "Body",
     "Case",
     "Checks",
@@ -46,6 +49,7 @@ __all__ = [
     "Method",
     "Mission",
     "Multiaxial",
+    "Report",
     "Spectrum",
     "StressCategory",
     "case_schema",
@@ -55,5 +59,6 @@ __all__ = [
     "event_length_km",
     "given_case",
     "load_case",
+    "numbers_text",
     "stress_categories",
 ]

@@ -14,6 +14,7 @@ from fatigue.case.check_problems import counts_problems, shear_problems
 from fatigue.case.checks import Checks, EnduranceCheck, Interaction, Multiaxial, StressCategory
 from fatigue.case.curves import Curve, CustomCurve, own_curve_problems
 from fatigue.case.extremes import excess, extreme_values
+from fatigue.case.identity.report import Report
 from fatigue.case.life_band import LifeBand
 from fatigue.case.load_problems import unit_load_problems
 from fatigue.case.order.sequence_problems import sequence_problems
@@ -54,6 +55,7 @@ MODELS: dict[tuple[str, ...], type[BaseModel]] = {
     ("checks", "interaction"): Interaction,
     ("checks", "endurance"): EnduranceCheck,
     ("checks", "stress_category"): StressCategory,
+    ("report",): Report,
 }
 
 

@@ -12,6 +12,7 @@ from pydantic import Field, PrivateAttr, field_validator
 from fatigue.case.channels import Channel, Ride, no_channel_of_static_loads
 from fatigue.case.checks import CHECK_FILES, Checks, Multiaxial
 from fatigue.case.curves import Curve, CustomCurve
+from fatigue.case.identity.report import Report
 from fatigue.case.life_band import LifeBand
 from fatigue.case.load_problems import forms_of_forces, loads_of_event, one_gravity
 from fatigue.case.order.sequences import Sequence
@@ -350,6 +351,7 @@ class Case(Table):
     mission: Mission = Field(description="a [mission] table")
     life_band: LifeBand = Field(default=LifeBand(), description="a [life_band] table")
     ride: Ride = Field(default=Ride(), description="a [ride] table")
+    report: Report = Field(default=Report(), description="a [report] table")
     _path: Path = PrivateAttr(Path())
     _text: str = PrivateAttr("")
 

@@ -4,7 +4,6 @@ from typing import Literal, get_args
 
 import numpy as np
 import pandas as pd
-import plotly.graph_objects as go
 from numpy.typing import NDArray
 
 from fatigue.errors import DataError, Problem
@@ -14,6 +13,7 @@ from fatigue.point.cycles import counted_point, cycle_frame
 from fatigue.point.found import FACES, Station
 from fatigue.point.reopened import Reopened, counted_load, event_numbers, forget, sampled_load
 from fatigue.report import figures, stress
+from fatigue.report.figures.drawn import Figure
 from fatigue.report.of_record import weights_of
 from fatigue.report.sections.point.detail import Detail, DetailedPoint, add_records
 from fatigue.report.sections.point.figures import SPECTRA_DRAWN, draw_history, draw_sn, draw_spectrum
@@ -27,17 +27,17 @@ FigureName = Literal["lives", "weld", "history", "spectrum", "rainflow", "exceed
 FIGURES: tuple[str, ...] = get_args(FigureName)
 
 
-def draw_lives(welds: pd.DataFrame, target_km: float) -> go.Figure:
+def draw_lives(welds: pd.DataFrame, target_km: float) -> Figure:
     """Lives of the welds against the target."""
     return figures.weld_lives(assessed(welds), target_km)
 
 
-def draw_weld(points: pd.DataFrame, target_km: float) -> go.Figure:
+def draw_weld(points: pd.DataFrame, target_km: float) -> Figure:
     """Life, load factor and largest ranges along a weld, ``points`` being its rows in the table of nodes."""
     return figures.along_weld(points, target_km)
 
 
-def draw_point(name: PointFigure, inputs: Reopened, station: Station, face: int, event: str | None) -> go.Figure:
+def draw_point(name: PointFigure, inputs: Reopened, station: Station, face: int, event: str | None) -> Figure:
     """A figure of a face of a station, under one event or all.
 
     Raises
@@ -61,7 +61,7 @@ def draw_point(name: PointFigure, inputs: Reopened, station: Station, face: int,
     return draw_sn(record, cycles, assumptions_of(record, counted_point(inputs, station, face).rated.curve.name))
 
 
-def _history(inputs: Reopened, station: Station, face: int, cycles: pd.DataFrame) -> go.Figure:
+def _history(inputs: Reopened, station: Station, face: int, cycles: pd.DataFrame) -> Figure:
     """Stress of a face over the event with the most damage among some cycles, its most damaging one close by."""
     event, detail = _leading_event(inputs, cycles), Detail()
     close_by = most_damaging(cycles, event, 1)
@@ -72,7 +72,7 @@ def _history(inputs: Reopened, station: Station, face: int, cycles: pd.DataFrame
     return draw_history(inputs.record, detail.envelope, detail.excerpts)
 
 
-def _spectrum(inputs: Reopened, station: Station, face: int, cycles: pd.DataFrame) -> go.Figure:
+def _spectrum(inputs: Reopened, station: Station, face: int, cycles: pd.DataFrame) -> Figure:
     """Stress spectra of a face in the events of some cycles, with the modes that lead in the one with the most damage.
 
     Raises

@@ -9,11 +9,10 @@ from dataclasses import dataclass, field
 from html import escape
 from numbers import Integral
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
-import plotly.graph_objects as go
 from threadpoolctl import threadpool_limits
 
 from fatigue.errors import CaseError, DataError, Problem, given_names, given_path, refuse
@@ -46,6 +45,9 @@ from fatigue.results import (
 from fatigue.results.dictionary.decided.history import HISTORIES
 from fatigue.results.tables import unknown_columns
 from fatigue.shown import visible
+
+if TYPE_CHECKING:
+    import plotly.graph_objects as go
 
 SHOWN = 10  # welds in a notebook
 
@@ -250,7 +252,7 @@ class Result:
         *,
         node: int | None = None,
         surface: str | None = None,
-    ) -> go.Figure:
+    ) -> "go.Figure":
         """A figure of the report, of any weld or point: a plotly figure.
 
         Parameters
@@ -270,14 +272,14 @@ class Result:
             what, remedy = f"there is no figure {name!r}", f"Name one of {', '.join(FIGURES)}"
             raise CaseError(Problem("argument", "name", what, remedy))
         if name == "lives":
-            return draw_lives(self.welds, self.target_km)
+            return draw_lives(self.welds, self.target_km).plotly()
         if weld is None:
             weld = str(self.welds["weld"].iloc[0])
         if name == "weld":
-            return draw_weld(self.table("nodes", weld=weld), self.target_km)
+            return draw_weld(self.table("nodes", weld=weld), self.target_km).plotly()
         station = self._station(weld, order, part, node)
         with self._reopened() as inputs:
-            return draw_point(name, inputs, station, station.face(surface), event)
+            return draw_point(name, inputs, station, station.face(surface), event).plotly()
 
     def __repr__(self) -> str:
         """Name it in a line."""

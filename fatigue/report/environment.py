@@ -6,13 +6,17 @@ import jinja2
 from markupsafe import Markup
 
 from fatigue.report import wording
+from fatigue.report.language import ENGLISH, Language
 from fatigue.shown import visible
 
 LONGEST_NAME = 120  # letters of a name in a sentence or a heading
 
 
-def environment(*rooms: str) -> jinja2.Environment:
-    """Environment of the templates of the report, and of those in the rooms (``fatigue.basis``) before them."""
+def environment(*rooms: str, language: Language = ENGLISH) -> jinja2.Environment:
+    """Environment of the templates of the report, and of those in the rooms (``fatigue.basis``) before them.
+
+    Templates say ``t("words")`` where the words have their like in other languages.
+    """
     loader = jinja2.ChoiceLoader([jinja2.PackageLoader(room) for room in dict.fromkeys((*rooms, "fatigue.report"))])
     made = jinja2.Environment(
         loader=loader,
@@ -24,6 +28,8 @@ def environment(*rooms: str) -> jinja2.Environment:
     )
     made.filters |= {
         "number": wording.number,
+        "result": wording.result,
+        "given": wording.given,
         "km": wording.km,
         "years": wording.years,
         "life": wording.life,
@@ -38,7 +44,7 @@ def environment(*rooms: str) -> jinja2.Environment:
         """Style sheet or script of the page, as it is."""
         return Markup(loader.get_source(made, name)[0])
 
-    made.globals["source"] = source
+    made.globals |= {"source": source, "t": language, "language": language.code}
     return made
 
 

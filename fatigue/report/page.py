@@ -7,12 +7,15 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+from threadpoolctl import threadpool_limits
 
 from fatigue.errors import DataError, Problem, given_path
 from fatigue.files.mishaps import refused_writing
 from fatigue.report import figures
 from fatigue.report.checks import read_checks
 from fatigue.report.figures.scene import BodyOutline
+from fatigue.report.identity.identity import Identity, found_identity, issued
+from fatigue.report.identity.section import identity_section
 from fatigue.report.inputs import FoundInputs, find_inputs
 from fatigue.report.page_text import page_text
 from fatigue.report.result import ShownResult, read_result
@@ -26,6 +29,8 @@ from fatigue.report.sections.checks import recomputed
 from fatigue.report.sections.curves import curve_sections, figure_mark, marked, of_toes
 from fatigue.report.sections.details import weld_details
 from fatigue.report.sections.embed import Figures
+from fatigue.report.sections.evidence.section import SIGNS, WORDS, evidence
+from fatigue.report.sections.evidence.warnings import grouped
 from fatigue.report.sections.formation.section import formation_section
 from fatigue.report.sections.load_spectra import read_load_spectra, spectra_warnings, spectra_words
 from fatigue.report.sections.places.paper import all_passed, on_paper
@@ -38,14 +43,13 @@ from fatigue.report.sections.transitions import transitions
 from fatigue.report.sections.unit_loads import load_table
 from fatigue.report.sections.weld import weld_page
 from fatigue.report.sections.why import read_why
-from fatigue.results import PAGE, enlist
+from fatigue.results import PAGE, enlist, read_provenance, row_count
 
 log = logging.getLogger(__name__)
 
 MOST_DETAILED = 40  # welds with their own figures; the others have their rows and their lines
 MOST_STATIONS = 100_000  # on the lines that are drawn; beyond, only lines of the worst welds are
 MOST_LISTED = 2000  # welds in the register of the page
-LONGEST_PLACE = 20_000  # letters of the place of a warning: a warning about many welds names them all
 
 
 def write_report(
@@ -74,22 +78,28 @@ def write_report(
     """
     folder = given_path(folder, "folder")
     path = (into or folder) / PAGE
-    page = report_page(folder, case_path, verification)
+    record = read_provenance(folder)
+    identity = found_identity(record, folder, None if case_path is None else given_path(case_path, "case_path"))
+    page = report_page(folder, case_path, verification, identity)
     with refused_writing(path):  # a path need not be UTF-8
         path.write_text(page, encoding="utf-8", errors="backslashreplace", newline="\n")
     if into is None:
-        enlist(folder, path)
+        enlist(folder, path, said=issued(record, identity))
     return path
 
 
 def report_page(
-    folder: Path | str, case_path: Path | str | None = None, verification: Sequence[Mapping[str, Any]] = ()
+    folder: Path | str,
+    case_path: Path | str | None = None,
+    verification: Sequence[Mapping[str, Any]] = (),
+    identity: Identity | None = None,
 ) -> str:
-    """Return the page as text; see ``write_report``."""
+    """Return the page as text; see ``write_report``. ``identity`` is by default the one that is found by the case."""
     folder = given_path(folder, "folder")
     case_path = None if case_path is None else given_path(case_path, "case_path")
     result = read_result(folder, MOST_DETAILED, MOST_STATIONS)
     record = result.record
+    identity = found_identity(record, folder, case_path) if identity is None else identity
     inputs = find_inputs(record, folder, case_path)
     missing: list[Problem] = []
     details, steps = _details(result, inputs, missing)
@@ -105,6 +115,7 @@ def report_page(
     paper = on_paper(result, unverified)
     lines = body_sections.drawn_lines(result)
     figs = Figures(mark=figure_mark(unverified, len(result.assessed)))
+    recounted = recomputed(result)
     context = {
         "title": record["title"],
         "version": record["software"]["fatigue"],
@@ -112,9 +123,10 @@ def report_page(
         "result": record.get("result", ""),
         "missing": missing,
         "outdated": inputs.outdated,
+        **identity_section(identity, record),
         "head": _head(result),
         "assumptions": method.assumptions(record),
-        "warnings": _warnings(
+        "warnings": grouped(
             [*record["warnings"], *spectra_warnings(spectra), *ride_warnings(ridden), *shift_warnings(record)]
         ),
         **curve_sections(result),
@@ -149,13 +161,16 @@ def report_page(
         "modes": tables.mode_table(record["modes"]),
         "unit_loads": load_table(record.get("unit_loads", ())),
         "rules": method.rules(record),
-        "checks": recomputed(result),
+        "checks": recounted,
+        "evidence": evidence(result, recounted, verification),
+        "evidence_signs": SIGNS,
+        "evidence_words": WORDS,
         "verification": tables.verification_table(verification),
         "verified": all_passed(verification),
         "inputs": tables.input_table(record["inputs"]),
         "audit": tables.audit_table(record.get("conversion")),
     }
-    return page_text("fatigue.report", "report.html", context, figs)
+    return page_text("fatigue.report", "report.html", context, figs, identity.look.language)
 
 
 def _details(
@@ -163,7 +178,8 @@ def _details(
 ) -> tuple[dict[str, Detail], dict[str, float]]:
     """What the records say of each detailed weld, and the step of each record; or a note why not."""
     try:
-        return weld_details(result, inputs)
+        with threadpool_limits(limits=1, user_api="blas"):  # products are small, and the same on any processor
+            return weld_details(result, inputs)
     except DataError as error:
         missing += error.problems
         return {}, {}
@@ -191,6 +207,7 @@ def _head(result: ShownResult) -> dict[str, Any]:
         "left_out": len(result.welds) - len(welds),
         "has_candidates": any(map(tables.is_candidate, result.welds["reason"])),
         "points": result.toes,
+        "points_in_all": row_count(result.folder, "nodes"),
         "worst": welds.iloc[0],
         "load_factor": welds["load_factor"].min(),
         "undamaged": not np.isfinite(welds.iloc[0]["life_km"]),
@@ -204,18 +221,3 @@ def _listed(result: ShownResult) -> pd.DataFrame:
     """Welds of the register that have a row: the worst, and those that are not assessed."""
     listed = (np.arange(len(result.welds)) < MOST_LISTED) | (result.welds["status"] != "assessed")
     return result.welds[listed]
-
-
-def _warnings(warnings: Sequence[Mapping[str, Any]]) -> list[tuple[str, int, list[Mapping[str, Any]]]]:
-    """Warnings by their kind, the kinds in the order in which they came: code, how many, entries."""
-    groups: dict[str, list[Mapping[str, Any]]] = {}
-    for warning in warnings:
-        groups.setdefault(warning["code"], []).append({**warning, "where": _shortened(warning["where"])})
-    return [(code, sum(warning.get("count", 1) for warning in group), group) for code, group in groups.items()]
-
-
-def _shortened(place: str) -> str:
-    """Place of a warning, a long list of welds cut behind one of them."""
-    if len(place) <= LONGEST_PLACE:
-        return place
-    return f"{place[:LONGEST_PLACE].rpartition(', ')[0]} and others, see provenance.json"

@@ -9,10 +9,11 @@ from plotly.offline import get_plotlyjs
 from fatigue import __version__
 from fatigue.report.environment import environment
 from fatigue.report.figures import CONFIG, TEMPLATE
+from fatigue.report.language import ENGLISH, Language
 from fatigue.report.sections.embed import Figures, embedded
 
 
-def page_text(room: str, template: str, context: Mapping[str, Any], figs: Figures) -> str:
+def page_text(room: str, template: str, context: Mapping[str, Any], figs: Figures, language: Language = ENGLISH) -> str:
     """Text of a page, from a template of a room (``fatigue.basis``) that extends ``page.html``.
 
     ``context`` has a ``title`` and what the template asks for; plotly is in the page only where it has ``figs``.
@@ -20,7 +21,7 @@ def page_text(room: str, template: str, context: Mapping[str, Any], figs: Figure
     frame = {
         "version": __version__,
         "config": embedded(CONFIG),
-        "template": embedded(TEMPLATE.to_plotly_json()),
+        "template": embedded(TEMPLATE),
         "plotly": Markup(get_plotlyjs()) if figs.shown else "",
     }
-    return environment(room).get_template(template).render({**frame, **context})
+    return environment(room, language=language).get_template(template).render({**frame, **context})

@@ -28,7 +28,9 @@ from fatigue.results import (
 
 POINT = ("weld", "part", "order", "surface")
 _WORST = ("weld", "worst_part", "worst_order", "worst_surface")
-_OF_CYCLE = ("event", "range_MPa", "mean_MPa", "count", "bending_ratio", "equivalent_range_dS", "damage")
+OF_CYCLE = (
+    "event", "start_s", "end_s", "range_MPa", "mean_MPa", "count", "bending_ratio", "equivalent_range_dS", "damage",
+)  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -46,7 +48,8 @@ class ShownResult:
     domains : both domains at the points of all welds
     detailed : the welds, worst first, whose worst point is shown in detail
     damage : the worst points of the detailed welds only
-    cycle_rows : of each detailed weld, row numbers in the table of cycles; none where these are merged
+    worst_of : of each detailed weld, the row of its worst point in the table of nodes
+    listed : of each detailed weld, the cycles of its worst point; none where these are merged or not kept
     merged : of each detailed weld that has cycles, its merged cycles, where the table of cycles is very long
     folder : where the tables lie
     """
@@ -60,7 +63,8 @@ class ShownResult:
     domains: Domains
     detailed: tuple[str, ...]
     damage: pd.DataFrame
-    cycle_rows: Mapping[str, NDArray[np.int64]]
+    worst_of: Mapping[str, pd.Series]
+    listed: Mapping[str, pd.DataFrame]
     merged: Mapping[str, MergedCycles]
     folder: Path
 
@@ -86,14 +90,13 @@ class ShownResult:
 
     def worst(self, weld: str) -> pd.Series:
         """Row of the worst point of a detailed weld in the table of nodes."""
-        return self._worst_of(weld, self.nodes[self.nodes["weld"] == weld]).iloc[0]
+        return self.worst_of[weld]
 
-    def cycles(self, weld: str, columns: Sequence[str] = _OF_CYCLE) -> pd.DataFrame:
-        """Read the cycles of a detailed weld's worst point, of a very long table merged; none where not kept."""
+    def cycles(self, weld: str) -> pd.DataFrame:
+        """Cycles of a detailed weld's worst point, of a very long table merged; none where they are not kept."""
         if weld in self.merged:
-            return self.merged[weld].rows[list(columns)]
-        cycles = read_rows(self.folder, "cycles", self.cycle_rows[weld], [*POINT, *columns]).to_pandas()
-        return self._worst_of(weld, cycles).reset_index(drop=True)
+            return self.merged[weld].rows[[*OF_CYCLE]]
+        return self.listed[weld]
 
     def modal_stress(self, columns: Sequence[str]) -> dict[str, tuple[pd.DataFrame, NDArray[np.float64]]]:
         """Read stress columns of the detailed welds [MPa per unit modal coordinate].
@@ -108,12 +111,6 @@ class ShownResult:
             stations = of_weld[["part", "order"]].iloc[::modes].reset_index(drop=True)
             found[str(weld)] = (stations, of_weld[list(columns)].to_numpy().T.reshape(len(columns), -1, modes))
         return found
-
-    def _worst_of(self, weld: str, rows: pd.DataFrame) -> pd.DataFrame:
-        """Rows of the worst point among the rows of a weld."""
-        row = self.assessed.set_index("weld").loc[weld]
-        at = (rows["part"] == row["worst_part"]) & (rows["order"] == row["worst_order"])
-        return rows[at & (rows["surface"] == row["worst_surface"])]
 
 
 def read_result(folder: Path, most_detailed: int, most_stations: int) -> ShownResult:
@@ -137,18 +134,22 @@ def read_result(folder: Path, most_detailed: int, most_stations: int) -> ShownRe
     detailed = tuple(rows["weld"].head(most_detailed))
     fitting = int(np.searchsorted(rows["nodes"].cumsum(), most_stations, side="right"))
     drawn = tuple(rows["weld"].head(max(fitting, most_detailed)))
+    nodes = rows_of(folder, "nodes", drawn)
+    worst_nodes = nodes.merge(_places(rows, detailed), on=list(POINT))
     is_long = row_count(folder, "cycles") > MOST_ROWS
+    cycles = rows_of_worst_points(folder, "cycles", rows, () if is_long else detailed, [*POINT, *OF_CYCLE])
     return ShownResult(
         record=record,
         welds=welds,
         assessed=rows,
         drawn=drawn,
-        nodes=rows_of(folder, "nodes", drawn),
+        nodes=nodes,
         toes=toes,
         domains=domains,
         detailed=detailed,
         damage=rows_of_worst_points(folder, "damage", rows, detailed),
-        cycle_rows=rows_of_welds(folder, "cycles", () if is_long else detailed),
+        worst_of={str(row["weld"]): row for _, row in worst_nodes.iterrows()},
+        listed=_by_weld(cycles, detailed),
         merged=_merged(folder, record, rows[rows["weld"].isin(detailed)]) if is_long else {},
         folder=folder,
     )
@@ -173,11 +174,23 @@ def _merged(folder: Path, record: Mapping[str, Any], welds: pd.DataFrame) -> dic
 
 def rows_of(folder: Path, table: str, welds: Sequence[str], columns: Sequence[str] | None = None) -> pd.DataFrame:
     """Read the rows of some welds in the order of the table."""
-    rows = rows_of_welds(folder, table, welds).values()
-    return read_rows(folder, table, np.sort(np.concatenate([*rows])), columns).to_pandas()
+    rows = np.concatenate([np.zeros(0, dtype=np.int64), *rows_of_welds(folder, table, welds).values()])
+    return read_rows(folder, table, np.sort(rows), columns).to_pandas()
 
 
-def rows_of_worst_points(folder: Path, table: str, welds: pd.DataFrame, some: Sequence[str]) -> pd.DataFrame:
+def rows_of_worst_points(
+    folder: Path, table: str, welds: pd.DataFrame, some: Sequence[str], columns: Sequence[str] | None = None
+) -> pd.DataFrame:
     """Read the rows of the worst points of some welds; ``welds`` is the register."""
-    worst = welds.loc[welds["weld"].isin(some), list(_WORST)].set_axis(list(POINT), axis=1)
-    return rows_of(folder, table, some).merge(worst, on=list(POINT))
+    return rows_of(folder, table, some, columns).merge(_places(welds, some), on=list(POINT))
+
+
+def _places(welds: pd.DataFrame, some: Sequence[str]) -> pd.DataFrame:
+    """Worst points of some welds of the register, by the columns of a point."""
+    return welds.loc[welds["weld"].isin(some), list(_WORST)].set_axis(list(POINT), axis=1)
+
+
+def _by_weld(cycles: pd.DataFrame, welds: Sequence[str]) -> dict[str, pd.DataFrame]:
+    """Cycles of each of some welds, be it none."""
+    at = cycles.groupby("weld", sort=False).indices
+    return {weld: cycles.iloc[at.get(weld, [])][[*OF_CYCLE]].reset_index(drop=True) for weld in welds}

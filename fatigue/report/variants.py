@@ -42,7 +42,9 @@ def assumptions_of(record: Mapping[str, Any], curve: str) -> Assumptions:
 
 def how_often(cycles: pd.DataFrame, passes_per_km: Mapping[str, float]) -> NDArray[np.float64]:
     """How often each listed cycle occurs [1/km]: its count times the passes of its event."""
-    return np.asarray(cycles["event"].map(passes_per_km).to_numpy(dtype=np.float64) * cycles["count"].to_numpy())
+    codes, events = pd.factorize(cycles["event"])
+    passes = np.array([*(passes_per_km.get(event, np.nan) for event in events), np.nan])  # the last of code -1
+    return np.asarray(passes[codes] * cycles["count"].to_numpy())
 
 
 def damage_per_km(

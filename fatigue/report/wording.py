@@ -7,6 +7,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
+from fatigue.digits import as_given, results
 from fatigue.shown import shortened, visible
 
 LONGEST = 1e12  # lives beyond are written as "> 1e12"
@@ -39,6 +40,16 @@ def number(value: Any, digits: int = 4) -> str:
     return f"{x:.{decimals}f}".replace("-", "−")
 
 
+def result(value: Any) -> str:
+    """Number that was computed, with three significant digits."""
+    return number(value, LIFE_DIGITS)
+
+
+def given(value: Any) -> str:
+    """Quantity that was given, with the digits that it has, six at most: ``12 000 000``, ``24``, ``212.5``."""
+    return NOT_AVAILABLE if value is None or value != value else as_given([float(value)])[0]  # noqa: PLR0124
+
+
 def whole(value: int) -> str:
     """Count with grouped thousands."""
     return f"{value:,}".replace(",", THIN_SPACE).replace("-", "−")
@@ -50,8 +61,13 @@ def km(value: Any) -> str:
 
 
 def life(value: Any) -> str:
-    """Life in km or years with three significant digits: ``2 210 000``."""
-    return number(value, LIFE_DIGITS)
+    """Life in km or years with three significant digits, written out: ``2 210 000``, ``1 250 000 000``."""
+    return results([float(value)])[0] if _is_long(value) else number(value, LIFE_DIGITS)
+
+
+def _is_long(value: Any) -> bool:
+    """Whether a life would be written in powers of ten, though it is no more than ``LONGEST``."""
+    return value is not None and 1e9 * (1.0 - 1e-3) <= value <= LONGEST
 
 
 def life_km(value: Any) -> str:

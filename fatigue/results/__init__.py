@@ -16,6 +16,7 @@ from fatigue.results.belonging import (
     PAGE,
     PICTURE,
     PRINT,
+    RECOUNT,
     WORKBOOK,
     is_derived,
     listed,
@@ -61,6 +62,7 @@ from fatigue.results.origin import (
 from fatigue.results.outputs import recorded
 from fatigue.results.provenance import (
     JOURNAL,
+    AddedKey,
     input_register,
     read_provenance,
     refuse_another,
@@ -102,6 +104,7 @@ __all__ = [
     "PAGE",
     "PICTURE",
     "PRINT",
+    "RECOUNT",
     "RIDDEN",
     "SHIFTED",
     "STRUCTURAL_STRESS",
@@ -109,6 +112,7 @@ __all__ = [
     "TRACK",
     "WELDS",
     "WORKBOOK",
+    "AddedKey",
     "Addition",
     "Column",
     "TableWriter",

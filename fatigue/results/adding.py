@@ -83,15 +83,17 @@ def adding(folder: Path, record: Mapping[str, Any], tables: Iterable[str], *, no
         yield Addition(folder, str(record.get("result", "")), staging, finished)
 
 
-def enlist(folder: Path, *documents: Path) -> None:
+def enlist(folder: Path, *documents: Path, said: Mapping[AddedKey, Any] | None = None) -> None:
     """Add documents just written to the list of the result folder they are in, and to its provenance.
+
+    ``said`` are entries of the provenance about them.
 
     Raises
     ------
     DataError : another run is writing to the folder, or its record was changed
     """
     with locked(folder), staging_in(folder) as staging:
-        relist(folder, staging, documents)
+        relist(folder, staging, documents, said)
         publish(staging, folder)
 
 

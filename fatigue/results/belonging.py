@@ -34,6 +34,7 @@ BODY = "body.vtp"
 PAGE = "report.html"
 PRINT = "report.pdf"
 WORKBOOK = "nodes.xlsx"
+RECOUNT = "recount.json"  # outcome of the last recount
 CSV_TABLES = (
     "nodes",
     "damage",
@@ -49,7 +50,7 @@ CSV_TABLES = (
     *RIDDEN,
     *SHIFTED,
 )
-DOCUMENTS: tuple[str, ...] = (PICTURE, BODY, PAGE, PRINT, WORKBOOK, *(f"{table}.csv" for table in CSV_TABLES))
+DOCUMENTS: tuple[str, ...] = (PICTURE, BODY, PAGE, PRINT, WORKBOOK, RECOUNT, *(f"{table}.csv" for table in CSV_TABLES))
 LIST = "exports.json"
 MARK = "fatigue-result"  # before the hash in documents that are text; the name of a property in the workbook
 _MARKED = re.compile(rb"fatigue-result.{1,60}?\b([0-9a-f]{32})\b", re.DOTALL)
@@ -211,6 +212,7 @@ _REMEDY = {
     **{f"{table}.parquet": "Run `fatigue ride` again, or remove it" for table in RIDDEN},
     **{f"{table}.parquet": "Run `fatigue shift` again, or remove it" for table in SHIFTED},
     **dict.fromkeys((*DOCUMENTS, LIST), "Write it again with `fatigue report`, or remove it"),
+    RECOUNT: "Run `fatigue verify --results` again, or remove it",
 }
 _NEEDED = {f"{table}.parquet" for table in ASSESSED}  # documents, diagnosis, ranges and spectra may be missing
 

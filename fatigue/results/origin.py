@@ -1,8 +1,8 @@
 """Where a result came from: the way to its case file, and whether case and inputs are still what they were.
 
-A case holds keys that no assessment reads: the channels of its events, how a ride is judged, what a modal basis is
-compared with, what strain gauges are read from. They may come, change and go: the case is the one that was assessed
-all the same.
+A case holds keys that no assessment reads: who answers for the report, the channels of its events, how a ride is
+judged, what a modal basis is compared with, what strain gauges are read from. They may come, change and go: the case is
+the one that was assessed all the same.
 """
 
 import json
@@ -17,6 +17,7 @@ from fatigue.files.hashes import sha256
 from fatigue.files.naming import missing_case_of_result
 
 NOT_ASSESSED = (
+    "report",
     "ride",
     "mission.event.channel",
     "body.participation",

@@ -8,7 +8,6 @@ import hashlib
 import json
 import platform
 from collections.abc import Mapping, Sequence
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any, Literal, get_args
 
@@ -21,7 +20,9 @@ PROVENANCE = "provenance.json"  # a folder without it holds no finished result
 CHECKSUMS = "provenance.json.sha256"  # of the record and of the outputs it lists
 JOURNAL = ".fatigue-publish"  # says that a finished result is being put in place, see `fatigue.results.publish`
 
-AddedKey = Literal["diagnosis", "load_spectra", "ride", "shift_study"]  # of the record: what is said of added tables
+AddedKey = Literal[
+    "diagnosis", "identity", "load_spectra", "ride", "shift_study"
+]  # of the record: what is said of added tables
 WRITTEN_LATER = ("outputs", *get_args(AddedKey))  # keys that change after the assessment, the result staying the same
 
 PUT_BACK = "Put the file back as it was, or run the assessment again with --force"
@@ -155,6 +156,8 @@ def input_register(paths: Sequence[Path], root: Path) -> list[dict[str, Any]]:
 
 def software_versions() -> dict[str, str]:
     """Versions of the program and of what its numbers rest on."""
+    from importlib.metadata import PackageNotFoundError, version  # noqa: PLC0415 - who only reads needs none of it
+
     packages = ("numpy", "scipy", "numba", "pyarrow", "pandas", "rainflow")
     found = {"fatigue": __version__, "python": platform.python_version()}
     for package in packages:

@@ -16,4 +16,4 @@ def test_the_example_makes_its_figures(result_folder, tmp_path, monkeypatch):
     pages = sorted(path.name for path in folder.glob("figure_*.html"))
     assert pages == ["figure_along.html", "figure_domains.html", "figure_lives.html", "figure_ranges.html"]
     assert all('"showSendToCloud": false' in (folder / page).read_text(encoding="utf-8") for page in pages)
-    assert len(names["lives"].data[1].x) == 2
+    assert len(names["lives"].data[1]["x"]) == 2

@@ -4,7 +4,6 @@ from itertools import pairwise
 
 import numpy as np
 import pandas as pd
-import plotly.graph_objects as go
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -40,7 +39,7 @@ def test_the_upload_button_is_off_wherever_figures_are_shown():
     assert figures.CONFIG["displaylogo"] is False
 
 
-def test_all_figures_are_plotly_figures_in_one_look(nodes, cycles, result_folder):
+def test_all_figures_have_one_look(nodes, cycles, result_folder):
     """Every function returns a figure that carries the common template."""
     welds = pd.read_parquet(result_folder / "welds.parquet")
     stations = figures.worst_faces(nodes)
@@ -56,14 +55,14 @@ def test_all_figures_are_plotly_figures_in_one_look(nodes, cycles, result_folder
         figures.projections(stations, rows, 1e7),
     ]
     for fig in made:
-        assert isinstance(fig, go.Figure)
-        assert fig.layout.template.layout.font.family == figures.TEMPLATE.layout.font.family
+        assert fig.layout["template"] is figures.TEMPLATE
+        assert fig.plotly().layout.template.layout.font.family == figures.TEMPLATE["layout"]["font"]["family"]
 
 
 def test_exceedance_of_the_mission_is_the_sum_of_its_events(cycles):
     """At the smallest range all cycles of 1e6 km are reached."""
     passes = {"tangent": 2.0, "curve": 3.0}
-    fig = figures.exceedance(cycles, passes)
+    fig = figures.exceedance(cycles, passes).plotly()
     total = 1e6 * (cycles["event"].map(passes) * cycles["count"]).sum()
     assert max(fig.data[0].x) == pytest.approx(total, rel=1e-6)
     assert sum(max(trace.x) for trace in fig.data[1:]) == pytest.approx(total, rel=1e-6)
@@ -85,7 +84,7 @@ def test_exceedance_never_rises_with_the_range(pairs):
 def test_matrices_hold_all_cycles_and_all_damage(cycles):
     """Counts sum to the cycles in 1e6 km within the decades shown, shares of the damage to 100 %."""
     per_km = cycles["count"].to_numpy()
-    fig = figures.rainflow_matrices(cycles, per_km)
+    fig = figures.rainflow_matrices(cycles, per_km).plotly()
     counts, shares = (10.0 ** np.asarray(trace.z, dtype=float) for trace in fig.data)
     assert np.nansum(counts) == pytest.approx(1e6 * per_km.sum(), rel=1e-5)
     assert np.nansum(shares) == pytest.approx(100.0, rel=1e-2)
@@ -96,7 +95,7 @@ def test_the_spectrum_lies_on_the_curves_of_the_catalogue(cycles):
     curve = catalogue()["master-aluminium"]
     laws = {level: damage_law(curve, level, "none", 1e7) for level in ("mean", "mean-2sigma")}
     per_target = np.full(len(cycles), 1e5)
-    fig = figures.sn_with_spectrum(cycles, per_target, laws, "mean-2sigma", "MPa")
+    fig = figures.sn_with_spectrum(cycles, per_target, laws, "mean-2sigma", "MPa").plotly()
     line = next(trace for trace in fig.data if trace.name == "mean-2sigma, used")
     expected = 1.0 / cycle_damage(np.asarray(line.y, dtype=float), laws["mean-2sigma"])
     np.testing.assert_allclose(line.x, expected, rtol=1e-5)
@@ -108,7 +107,7 @@ def test_the_spectrum_lies_on_the_curves_of_the_catalogue(cycles):
 def test_a_curve_with_cutoff_ends_there(cycles):
     """Below the cut-off nothing fails, so nothing is drawn."""
     law = damage_law(catalogue()["master-aluminium"], "mean-2sigma", "cutoff", 1e7)
-    fig = figures.sn_with_spectrum(cycles, np.ones(len(cycles)), {"mean-2sigma": law}, "mean-2sigma", "MPa")
+    fig = figures.sn_with_spectrum(cycles, np.ones(len(cycles)), {"mean-2sigma": law}, "mean-2sigma", "MPa").plotly()
     x, y = (np.asarray(values, dtype=float) for values in (fig.data[0].x, fig.data[0].y))
     assert np.isnan(x[y < law.cutoff]).all()
     assert np.nanmax(x) <= 1e7 * 1.0001
@@ -116,7 +115,7 @@ def test_a_curve_with_cutoff_ends_there(cycles):
 
 def test_strips_show_the_shortest_life_of_each_cell(nodes):
     """The worst point of a weld is never lost between cells."""
-    fig = figures.weld_strips(nodes, 1e7)
+    fig = figures.weld_strips(nodes, 1e7).plotly()
     shortest = nodes.groupby("weld")["life_km"].min().sort_values()
     np.testing.assert_allclose(10.0 ** np.min(np.asarray(fig.data[0].z, dtype=float), axis=1), shortest, rtol=1e-5)
 
@@ -154,7 +153,7 @@ def test_corners_and_parts_are_drawn(nodes):
     weld = nodes[nodes["weld"] == "W1 bracket"].copy()
     weld["part"] = np.where(weld["order"] <= 3, 1, 2)
     weld["at_corner"] = weld["order"].isin([3, 4])
-    fig = figures.along_weld(weld, 1e7)
+    fig = figures.along_weld(weld, 1e7).plotly()
     uprights = [shape for shape in fig.layout.shapes if shape.type == "line" and shape.x0 == shape.x1]
     assert len(uprights) == 2
     assert np.isnan(fig.data[0].y[3])
@@ -174,7 +173,7 @@ def test_spectra_keep_their_peaks_when_thinned():
 def test_a_spectrum_that_does_not_vary_is_drawn():
     """A point without stress has a flat spectrum and no error."""
     flat = StressSpectrum("run", np.array([0.0, 1.0, 2.0]), np.zeros(3))
-    fig = figures.stress_spectrum([flat], {"run": "#000000"}, {}, "run")
+    fig = figures.stress_spectrum([flat], {"run": "#000000"}, {}, "run").plotly()
     assert np.isfinite(fig.layout.yaxis.range).all()
 
 
@@ -183,7 +182,7 @@ def test_history_marks_both_reversals():
     time = np.linspace(0.0, 1.0, 11)
     excerpts = [Excerpt((t,), time + t, np.sin(time + t), {1: np.cos(time)}) for t in (0.0, 5.0)]
     envelope = Envelope("run", np.array([0.0, 1.0]), np.array([-1.0, -2.0]), np.array([1.0, 2.0]))
-    fig = figures.stress_history(envelope, excerpts, {1: "mode 1"}, "#000000")
+    fig = figures.stress_history(envelope, excerpts, {1: "mode 1"}, "#000000").plotly()
     marks = [trace for trace in fig.data if trace.name == "reversals of the cycle"]
     assert [len(trace.x) for trace in marks] == [1, 1]
     assert sum(shape.type == "rect" for shape in fig.layout.shapes) == 2
@@ -194,7 +193,7 @@ def test_cycles_close_by_have_a_panel_each():
     time = np.linspace(0.0, 1.0, 11)
     excerpts = [Excerpt((t,), time + t, np.sin(time + t), {1: np.cos(time)}) for t in (0.0, 5.0)]
     near = Excerpt((0.2, 0.4), time, np.sin(time), {1: np.cos(time)})
-    fig = figures.cycles_close_by([excerpts, [near]], ["first: 2 MPa", "second: 1 MPa"], {1: "mode 1"})
+    fig = figures.cycles_close_by([excerpts, [near]], ["first: 2 MPa", "second: 1 MPa"], {1: "mode 1"}).plotly()
     domains = [fig.layout[name].domain for name in ("xaxis", "xaxis2", "xaxis3")]
     assert domains[0][0] == 0.0
     assert domains[-1][1] == pytest.approx(1.0)
@@ -210,7 +209,7 @@ def test_a_point_is_marked_on_its_line(result_folder):
     nodes = pd.read_parquet(result_folder / "nodes.parquet")
     points = nodes[nodes["weld"] == nodes["weld"].iloc[0]]
     row = points[points["surface"] == "bottom"].iloc[1]
-    fig = figures.along_weld(points, 1e7, marked=(row["part"], row["order"], "bottom"))
+    fig = figures.along_weld(points, 1e7, marked=(row["part"], row["order"], "bottom")).plotly()
     (mark,) = [trace for trace in fig.data if trace.name == "this point, bottom face"]
     assert mark.x[0] == row["arc_length_mm"]
     assert mark.y[0] == min(row["life_km"], 1e12)
@@ -224,12 +223,12 @@ def test_damage_by_method_is_a_share_of_what_was_counted():
     table, passes_per_km = pd.DataFrame(rows, columns=["event", *columns]), {"fast": 2.0, "slow": 1.0, "load": 1.0}
     with pytest.raises(DataError, match="passes_per_km: there is none for event 'load'"):
         figures.damage_by_method(table, {"fast": 2.0, "slow": 1.0})
-    fig = figures.damage_by_method(table, passes_per_km)
+    fig = figures.damage_by_method(table, passes_per_km).plotly()
     bars = {trace.name: trace.y for trace in fig.data}
     assert list(fig.data[0].x) == ["fast", "slow", "together"]
     assert bars["rainflow"].tolist() == pytest.approx([0.4, 0.6, 1.0])
     assert bars["Dirlik"].tolist() == pytest.approx([0.4, 1.0, 1.4])
-    assert list(figures.damage_by_method(table, passes_per_km, most=1).data[0].x) == ["slow"]
+    assert list(figures.damage_by_method(table, passes_per_km, most=1).plotly().data[0].x) == ["slow"]
 
 
 @pytest.mark.parametrize("bandwidth", [(9.0, 11.0), (2.0, 40.0)])
@@ -238,7 +237,7 @@ def test_ranges_that_a_spectrum_expects(bandwidth):
     low, high = bandwidth
     moments = np.array([30 * (high**n - low**n) / n for n in (1, 2, 3, 5)])
     cycles = pd.DataFrame({"range_MPa": [12.0 * np.sqrt(moments[0])], "count": [1.0]})
-    fig = figures.ranges_by_method(cycles, moments, 1e4)
+    fig = figures.ranges_by_method(cycles, moments, 1e4).plotly()
     line = next(trace for trace in fig.data if trace.name == "Dirlik")
     ranges, reached = np.asarray(line.y, dtype=float), np.asarray(line.x, dtype=float)
     power_sum = np.trapezoid(3.0 * ranges**2 * reached, ranges)  # sum n S^3 = integral of 3 S^2 N(> S)
@@ -269,7 +268,7 @@ def test_events_beyond_the_palette_are_one_bar():
     """Leading events keep their colour, the rest is summed; every row sums to 1."""
     events = [f"event {i}" for i in range(12)]
     shares = pd.DataFrame(np.random.default_rng(3).dirichlet(np.ones(12), size=4), columns=events)
-    fig = figures.damage_by_event(["a", "b", "c", "d"], shares, dict.fromkeys(events, "8 % of km"))
+    fig = figures.damage_by_event(["a", "b", "c", "d"], shares, dict.fromkeys(events, "8 % of km")).plotly()
     assert fig.data[-1].name == "6 other events"
     np.testing.assert_allclose(np.sum([trace.x for trace in fig.data], axis=0), 1.0, rtol=1e-6)
 
@@ -290,7 +289,7 @@ def test_outline_of_a_box_is_its_edges():
 def test_a_flat_scene_stays_in_view(nodes):
     """Weld lines in one plane give axes of a positive length in every direction, true to scale."""
     stations = figures.worst_faces(nodes)
-    space = figures.scene(stations, figures.line_rows(stations, frozenset()), 1e7).layout.scene
+    space = figures.scene(stations, figures.line_rows(stations, frozenset()), 1e7).plotly().layout.scene
     extent = np.array([np.ptp(space[axis].range) for axis in ("xaxis", "yaxis", "zaxis")])
     ratio = np.array([space.aspectratio[axis] for axis in "xyz"])
     assert (extent > 0.0).all()
@@ -314,7 +313,7 @@ def test_the_worse_toe_face_stands_for_its_station(nodes):
 
 def test_negative_shares_are_shown_as_such():
     """A mode that relieves has a bar to the left and room for its number."""
-    fig = figures.shares(["a", "b"], np.array([1.02, -0.02]), "share [%]")
+    fig = figures.shares(["a", "b"], np.array([1.02, -0.02]), "share [%]").plotly()
     assert fig.layout.xaxis.range[0] < -0.02
     assert list(fig.data[0].text) == ["102.0 %", "−2.00 %"]
 
@@ -322,10 +321,10 @@ def test_negative_shares_are_shown_as_such():
 def test_bands_without_end_are_drawn():
     """The open band above the last edge and the one from 0 Hz have a place on a logarithmic axis."""
     bands = pd.DataFrame({"low_hz": [0.0, 1.0, 10.0], "high_hz": [1.0, 10.0, np.nan], "share": [0.1, 1.0, -0.1]})
-    fig = figures.damage_by_band(bands, modes=[8.5])
+    fig = figures.damage_by_band(bands, modes=[8.5]).plotly()
     assert (np.asarray(fig.data[0].x) > 0.0).all()
     assert fig.data[0].customdata[2] == "above 10 Hz"
-    assert figures.bands_of_welds(["W1"], np.array([[0.1, 1.0, -0.1]]), bands).data[0].z.shape == (1, 3)
+    assert figures.bands_of_welds(["W1"], np.array([[0.1, 1.0, -0.1]]), bands).plotly().data[0].z.shape == (1, 3)
 
 
 @pytest.mark.parametrize(("start", "unit"), [([0.0, 0.1], "km"), ([np.nan, np.nan], "s")])
@@ -341,6 +340,6 @@ def test_places_on_the_track(start, unit):
             "intensity": [0.4, 1.6],
         }
     )
-    fig = figures.damage_on_track(track)
+    fig = figures.damage_on_track(track).plotly()
     assert f"[{unit}]" in fig.layout.xaxis.title.text
     np.testing.assert_allclose(fig.data[0].y, [0.4, 1.6], rtol=1e-6)

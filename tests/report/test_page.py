@@ -10,7 +10,7 @@ import pytest
 
 from fatigue.errors import DataError
 from fatigue.report.page import report_page, write_report
-from fatigue.report.wording import life, number
+from fatigue.report.wording import life, result
 from tests.report.reading import Page, values
 from tests.report.tiny_result import TARGET_KM, Recipe, write_result
 
@@ -36,15 +36,16 @@ def made(tmp_path, **recipe):
 def test_the_first_words_are_the_verdict(page):
     """Fulfilled or not, how many welds, the target in km and years."""
     assert "Target not fulfilled" in page.words
-    assert "1 of 2 welds misses the target of 12 000 000 km (24.00 years at 500 000 km per year)" in page.words
+    assert "1 of 2 welds misses the target of 12 000 000 km (24 years at 500 000 km per year)" in page.words
 
 
 def test_worst_welds_equal_the_register(page, result_folder):
-    """Every number of the table of welds is that of welds.parquet, worst weld first, four digits, of lives three."""
+    """Every number of the table of welds is that of welds.parquet, worst weld first; three digits, millions."""
     welds = pd.read_parquet(result_folder / "welds.parquet").sort_values("utilisation", ascending=False)
     rows = page.tables["worst-welds"][1:]
     for row, (_, weld) in zip(rows, welds.iterrows(), strict=True):
-        expected = [*map(life, weld[["life_km", "life_years"]]), *map(number, weld[["utilisation", "load_factor"]])]
+        lives = [weld["life_km"] / 1e6, weld["life_years"]]
+        expected = [*map(life, lives), *map(result, weld[["utilisation", "load_factor"]])]
         assert row[0] == weld["weld"]
         assert row[2:6] == expected
         assert row[6] == str(weld["worst_node"])
@@ -59,7 +60,7 @@ def test_worst_hot_spots_are_points_of_the_table_of_nodes(page, result_folder):
     assert len(rows) == 4
     for row, (_, point) in zip(rows, worst.iterrows(), strict=True):
         assert row[1:3] == [point["weld"], point["surface"]]
-        assert row[4:7] == [str(point["node"]), life(point["life_km"]), life(point["life_years"])]
+        assert row[4:7] == [str(point["node"]), life(point["life_km"] / 1e6), life(point["life_years"])]
 
 
 def test_life_along_the_weld_equals_the_table(page, result_folder):
@@ -119,7 +120,7 @@ def test_units_are_in_the_axes_and_columns(page):
         for axis, given in fig["layout"].items():
             title = given.get("title", {}).get("text", "") if axis.startswith(("xaxis", "yaxis")) else ""
             assert not title or "[" in title, f"{name}: {title}"
-    assert "life [km]" in page.tables["worst-welds"][0]
+    assert "life [million km]" in page.tables["worst-welds"][0]
     assert "life [years]" in page.tables["worst-welds"][0]
 
 
@@ -141,7 +142,7 @@ def test_a_spoiled_result_is_noticed(tmp_path):
 def test_lives_under_other_assumptions(page):
     """Mean curve above, mean minus three sigma below, and the used choices at factor 1."""
     rows = {row[1]: row for row in page.tables["weld-1-variants"][1:]}
-    assert rows["mean-2sigma (used)"][4] == "1.000"
+    assert rows["mean-2sigma (used)"][4] == "1.00"
     assert float(rows["mean"][4]) < 1.0 < float(rows["mean-3sigma"][4])
     assert float(rows["ASME, at least 16 mm"][4]) > 1.0
 
@@ -236,19 +237,20 @@ def test_warnings_are_on_the_first_page_and_in_full_below(tmp_path):
     )
     words = made(tmp_path, warnings=warnings).words
     assert "and 2 more of this kind" in words
-    assert "End unresolved (3)" in words
+    assert "End unresolved (3, end_unresolved )" in words
+    assert "Mend the model" in words
     assert words.count("Refine") == 3
 
 
 def test_a_warning_that_sums_up_others_counts_for_them(tmp_path, monkeypatch):
     """Their number is in all numbers of the kind, their welds are named as far as there is room."""
-    monkeypatch.setattr("fatigue.report.page.LONGEST_PLACE", 40)
+    monkeypatch.setattr("fatigue.report.sections.evidence.warnings.LONGEST_PLACE", 40)
     one = {"code": "end_unresolved", "where": "n.csv: weld A", "what": "coarse", "remedy": "Refine", "count": 1}
     some = one | {"where": "n.csv: weld B, C", "what": "2 more of this kind", "count": 2}
     many = one | {"where": "n.csv: weld " + ", ".join(["D1"] * 10), "what": "10 more of this kind", "count": 10}
     words = made(tmp_path, warnings=(one, some, many)).words
     assert "and 12 more of this kind" in words
-    assert "End unresolved (13)" in words
+    assert "End unresolved (13, end_unresolved )" in words
     assert "n.csv: weld B, C : 2 more" in words
     assert "n.csv: weld D1, D1, D1, D1, D1, D1, D1 and others, see provenance.json : 10 more" in words
 

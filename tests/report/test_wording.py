@@ -56,7 +56,13 @@ def test_lives_carry_their_unit():
 
 @pytest.mark.parametrize(
     ("value", "written"),
-    [(4.41771, "4.42"), (607.7, "608"), (999.6, "1000"), (27332429.06, "27 300 000"), (1.3597e10, "1.36e10")],
+    [
+        (4.41771, "4.42"),
+        (607.7, "608"),
+        (999.6, "1000"),
+        (27332429.06, "27 300 000"),
+        (1.3597e10, "13 600 000 000"),
+    ],
 )
 def test_lives_have_three_digits(value, written):
     """The fourth is far below their scatter."""

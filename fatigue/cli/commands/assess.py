@@ -89,6 +89,12 @@ def check(options: dict[str, bool], case_file: Path, strict: bool, as_json: bool
     is_flag=True,
     help="Refuse a case that rests on an S-N curve of the status unverified, with exit code 3.",
 )
+@click.option(
+    "--verify",
+    "recounts",
+    is_flag=True,
+    help="Recount points with independent code as `fatigue verify --results` does, and show the outcome in the report.",
+)
 @no_lock
 @click.option("--exit-zero", is_flag=True, help="Exit 0 although a weld misses its target.")
 @strict
@@ -108,6 +114,7 @@ def assess(
     force: bool,
     no_report: bool,
     require_verified: bool,
+    recounts: bool,
     no_lock: bool,
     exit_zero: bool,
     strict: bool,
@@ -117,6 +124,8 @@ def assess(
 
     An interrupted run goes on where it was when the same command is given again. What was derived from an earlier
     result of the same case in DIR (page, PDF, workbook, CSV, diagnosis) is removed; files of your own stay.
+
+    With --verify the exit code is 4 where the recount does not agree; the result is there all the same, and says so.
 
     \b
     Example:
@@ -154,6 +163,7 @@ def assess(
             force=force,
             report=not no_report,
             no_lock=no_lock,
+            recounts=recounts,
             verification=tuple if no_report else known_values,
             progress=progress,
         )
@@ -163,5 +173,7 @@ def assess(
         print_json(found.as_record())
     else:
         say(found.as_text())
+    if done.recount_passed is False:
+        raise SystemExit(4)
     if not done.fulfilled and not exit_zero:
         raise SystemExit(1)

@@ -1,5 +1,6 @@
 """The command that checks the program, and recounts results."""
 
+import logging
 from pathlib import Path
 
 import click
@@ -9,7 +10,10 @@ from fatigue.cli.early import refuse_missing_result
 from fatigue.cli.main import cli
 from fatigue.cli.output import print_json, say
 from fatigue.cli.progress import narrated
+from fatigue.errors import DataError
 from fatigue.stages import stage
+
+log = logging.getLogger(__name__)
 
 
 @cli.command(short_help="Check the program, or recount points of a result.")
@@ -34,7 +38,8 @@ def verify(
 
     The recount reads the input files itself, with dense line matrices and the `rainflow` package, and shares no code
     with the assessment. Of very many welds it takes what some ten minutes allow, half of them those with the shortest
-    lives, half drawn, and checks of all rows what follows from other rows. Exit code 4 when a check fails.
+    lives, half drawn, and checks of all rows what follows from other rows. The outcome is kept beside the result, in
+    recount.json, and `fatigue report DIR` shows it. Exit code 4 when a check fails.
 
     \b
     Examples:
@@ -48,8 +53,9 @@ def verify(
     elif every:
         raise click.UsageError("--all recounts the points of a result: give --results DIR as well")
     from fatigue.results.outputs import damage_told
+    from fatigue.results.provenance import parsed_provenance
     from fatigue.verify.check import VerificationTable
-    from fatigue.verify.recount import Recount, recount
+    from fatigue.verify.recount import Recount, keep, recount
     from fatigue.verify.table import verification_table
 
     with narrated(quiet=options["quiet"]):
@@ -59,7 +65,12 @@ def verify(
         else:
             stage("recounting from the input files")
             with damage_told(folder):
+                record = parsed_provenance(folder)
                 found = recount(folder, sample=None if every else sample, case_file=case_file)
+            try:
+                keep(folder, found, record)
+            except DataError as error:  # a folder of somebody else can be checked as well
+                log.warning("the outcome is not kept beside the result: %s", error)
     if as_json:
         print_json(found.as_record())
     else:

@@ -1,11 +1,11 @@
 """The page of answers: one HTML file that needs nothing but itself, in the look of the report."""
 
 import numpy as np
-import plotly.graph_objects as go
 
 from fatigue.decide.backsolve.rows import AnswerRow
 from fatigue.decide.backsolve.summary import ASKED, Answers, answer_words
-from fatigue.report.figures.style import ACCENT, INK, QUIET, Trace, axis, figure, log_axis, upright
+from fatigue.report.figures.drawn import Figure, Trace
+from fatigue.report.figures.style import ACCENT, INK, QUIET, axis, figure, log_axis, upright
 from fatigue.report.page_text import page_text
 from fatigue.report.rows_table import MOST_ROWS, filter_label
 from fatigue.report.sections.cells import Cell, Heading, PageTable, integer, num, text
@@ -46,7 +46,7 @@ def _figure(found: Answers, figs: Figures) -> Shown | None:
     return figs.add("answers", _drawn(found, rows), caption, wide=True)
 
 
-def _drawn(found: Answers, rows: list[AnswerRow]) -> go.Figure:
+def _drawn(found: Answers, rows: list[AnswerRow]) -> Figure:
     """Answer of each weld beside what is now, the one that decides on top."""
     y = list(range(len(rows)))
     x: list[float | None] = []

@@ -5,12 +5,12 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 import pandas as pd
-import plotly.graph_objects as go
 
 from fatigue.decide.compare.pairs import WELD, Pair
 from fatigue.decide.compare.split import EVENT, LIMIT, MISSION, MODE, PER_PASS, SEQUENCE, UNIT_LOAD
 from fatigue.decide.compare.words import coordinate, mode_names
-from fatigue.report.figures.style import GRID, MISSED, QUIET, SERIES, Trace, axis, event_colours, figure, upright
+from fatigue.report.figures.drawn import Figure, Trace
+from fatigue.report.figures.style import GRID, MISSED, QUIET, SERIES, axis, event_colours, figure, upright
 from fatigue.report.wording import in_figure, life_km
 
 MOST_WELDS = 30  # drawn, those whose life changes most; the table has all
@@ -24,7 +24,7 @@ ROUNDING = 1e-9  # of a log ratio: no bar
 APART = 0.19  # of the reach of an axis, between two ticks
 
 
-def ratio_figure(pairs: Sequence[Pair]) -> go.Figure | None:
+def ratio_figure(pairs: Sequence[Pair]) -> Figure | None:
     """Life ratio of each weld, a mark for every other result; None where no ratio is finite.
 
     Open marks: the weld meets its target in one of the two only.
@@ -78,7 +78,7 @@ def _marks(letter: str, number: int, table: pd.DataFrame, welds: Sequence[str]) 
     }
 
 
-def event_figure(pair: Pair) -> go.Figure | None:
+def event_figure(pair: Pair) -> Figure | None:
     """What events add to the log ratio of the welds that change most, stacked; None without causes.
 
     Plain: the damage of a pass, or all of an event that cannot be split; hatched: how often it occurs.
@@ -101,7 +101,7 @@ def event_figure(pair: Pair) -> go.Figure | None:
     return _stacked(pair, labelled)
 
 
-def mode_figure(pair: Pair) -> go.Figure | None:
+def mode_figure(pair: Pair) -> Figure | None:
     """What modes and unit loads add, over all events, at the welds that change most; None without a diagnosis."""
     rows = pair.causes[(pair.causes["scope"] == WELD) & pair.causes["kind"].isin((MODE, UNIT_LOAD))]
     if not (rows["log_life_ratio"].abs() > ROUNDING).any():
@@ -128,7 +128,7 @@ def _changing(pair: Pair) -> list[str]:
     return found
 
 
-def _stacked(pair: Pair, rows: pd.DataFrame) -> go.Figure | None:
+def _stacked(pair: Pair, rows: pd.DataFrame) -> Figure | None:
     """Bars of ``weld``, ``label``, ``colour``, ``hatch`` and ``log_life_ratio``, and a mark at their sum."""
     drawn = [weld for weld in _changing(pair) if weld in set(rows["weld"])]
     rows = rows[rows["weld"].isin(drawn)]

@@ -3,10 +3,10 @@
 from collections.abc import Sequence
 
 import numpy as np
-import plotly.graph_objects as go
 
 from fatigue.decide.fleet.rows import PercentileRow, UnitRow, VarianceRow
-from fatigue.report.figures.style import ACCENT, INK, MISSED, QUIET, SERIES, Trace, axis, figure, log_axis, upright
+from fatigue.report.figures.drawn import Figure, Trace
+from fatigue.report.figures.style import ACCENT, INK, MISSED, QUIET, SERIES, axis, figure, log_axis, upright
 from fatigue.report.wording import in_figure, life
 
 MOST_UNITS, MOST_WELDS = 40, 30  # drawn: those with the shortest lives
@@ -14,7 +14,7 @@ LONGEST_YEARS = 1e4  # drawn; longer lives stand there
 LONGEST = f"longer than {LONGEST_YEARS:g} years: drawn there"
 
 
-def ranking(rows: Sequence[UnitRow], target_years: float | None) -> go.Figure:
+def ranking(rows: Sequence[UnitRow], target_years: float | None) -> Figure:
     """Life of the worst weld of each unit, the shortest on top; a triangle where it is a lower bound."""
     shown = rows[:MOST_UNITS]
     lives = np.array([_drawn(row.life_years) for row in shown])
@@ -37,7 +37,7 @@ def ranking(rows: Sequence[UnitRow], target_years: float | None) -> go.Figure:
     return _beside_names([marks], names, _life_axis([*lives, *([target_years] if target_years else [])]), target_years)
 
 
-def spread(rows: Sequence[PercentileRow], target_years: float | None) -> go.Figure:
+def spread(rows: Sequence[PercentileRow], target_years: float | None) -> Figure:
     """Percentiles of the life of each weld over the units: outer ones as a line, all as marks."""
     welds = [name for name in dict.fromkeys(row.weld for row in rows) if name][:MOST_WELDS]
     percent = sorted({row.percentile for row in rows})
@@ -76,7 +76,7 @@ def spread(rows: Sequence[PercentileRow], target_years: float | None) -> go.Figu
     return _beside_names(data, [in_figure(name, 28) for name in welds], shown, target_years, legend=True)
 
 
-def shares(rows: Sequence[VarianceRow], of: str) -> go.Figure | None:
+def shares(rows: Sequence[VarianceRow], of: str) -> Figure | None:
     """Shares of the variance, a bar for each weld (``of`` units) or unit; below 0 to the left. None without rows."""
     own = [row for row in rows if row.of == of]
     if not own:
@@ -131,7 +131,7 @@ def _beside_names(
     *,
     legend: bool = False,
     **layout: object,
-) -> go.Figure:
+) -> Figure:
     """Figure with a row for each name, the first on top, and the target as an upright line."""
     return figure(
         data,

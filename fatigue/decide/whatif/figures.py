@@ -2,8 +2,8 @@
 
 import numpy as np
 import pandas as pd
-import plotly.graph_objects as go
 
+from fatigue.report.figures.drawn import Figure
 from fatigue.report.figures.style import ACCENT, INK, MISSED, QUIET, axis, drawn_life, figure, life_axis, upright
 from fatigue.shown import shortened, visible
 
@@ -12,7 +12,7 @@ COLOUR = {"meets": ACCENT, "misses": MISSED, "not_proven": "#b8760b"}
 WORDS = {"meets": "meets its target", "misses": "misses its target", "not_proven": "not proven"}
 
 
-def lives_figure(welds: pd.DataFrame, target_km: float, target_km_before: float) -> go.Figure | None:
+def lives_figure(welds: pd.DataFrame, target_km: float, target_km_before: float) -> Figure | None:
     """Lives of the welds before (hollow) and after, with the band from low to high; None where no life is known."""
     shown = welds.head(MOST_WELDS).reset_index(drop=True)
     before, after = shown["life_km_before"].to_numpy(), shown["life_km"].to_numpy(dtype=float)

@@ -3,14 +3,14 @@
 from collections.abc import Sequence
 
 import numpy as np
-import plotly.graph_objects as go
 
 from fatigue.gauges.histories.counts import GaugeSpectra
 from fatigue.gauges.histories.tables import GaugeRow
 from fatigue.gauges.instrument import MICROSTRAIN, Floats
 from fatigue.gauges.simulated import Reading
+from fatigue.report.figures.drawn import Figure, Trace
 from fatigue.report.figures.scene import BodyOutline, body_traces, space_around
-from fatigue.report.figures.style import DASHES, INK, SERIES, Trace, axis, figure, log_axis, single
+from fatigue.report.figures.style import DASHES, INK, SERIES, axis, figure, log_axis, single
 from fatigue.report.wording import in_figure, number
 
 MOST_HISTORIES, MOST_SPECTRA = 6, 12
@@ -22,7 +22,7 @@ SYMBOL = {"element": "circle", "table": "diamond", "toe": "x"}
 NAME = {"element": "on an element", "table": "at a stress point", "toe": "stand-in at a toe"}
 
 
-def places(rows: Sequence[GaugeRow], lines: Sequence[Floats], body: BodyOutline | None) -> go.Figure:
+def places(rows: Sequence[GaugeRow], lines: Sequence[Floats], body: BodyOutline | None) -> Figure:
     """Gauges over the outline of the body, each with its direction; ``lines`` (n, 3) are the weld lines [mm]."""
     at = np.array([[row.x_mm, row.y_mm, row.z_mm] for row in rows])
     towards = np.array([[row.dir_x, row.dir_y, row.dir_z] for row in rows])
@@ -66,7 +66,7 @@ def _labels(rows: Sequence[GaugeRow], at: Floats, apart: float) -> dict[int, str
     return {n: in_figure(rows[n].gauge, 24) + (f" +{more}" if more else "") for n, more in found.items()}
 
 
-def excerpts(rows: Sequence[GaugeRow], readings: Sequence[Reading]) -> list[tuple[str, go.Figure]]:
+def excerpts(rows: Sequence[GaugeRow], readings: Sequence[Reading]) -> list[tuple[str, Figure]]:
     """Some seconds of every event around the largest swing of the gauges that read most, about their means."""
     drawn = [n for n in np.argsort([-row.rms_ue for row in rows], kind="stable").tolist() if rows[n].rms_ue > 0.0]
     drawn = drawn[:MOST_HISTORIES]
@@ -86,7 +86,7 @@ def excerpts(rows: Sequence[GaugeRow], readings: Sequence[Reading]) -> list[tupl
     return found
 
 
-def exceedance(rows: Sequence[GaugeRow], spectra: Sequence[GaugeSpectra]) -> go.Figure | None:
+def exceedance(rows: Sequence[GaugeRow], spectra: Sequence[GaugeSpectra]) -> Figure | None:
     """Strain ranges of the mission over how often they are reached in 1e6 km; None where nothing moves."""
     order = np.argsort([-float(of.largest.max(initial=0.0)) for of in spectra], kind="stable").tolist()
     data: list[Trace] = []

@@ -68,7 +68,7 @@ def _opened(
     """The work of a job, and the folder of its scratch files, which goes when neither is needed any more."""
     threadpool_limits(limits=1, user_api="blas")  # for good: orders side by side must not lift it for each other
     case = load_case(Path(path))
-    if key_of(inputs_of(case), options) != key:
+    if key_of(case, inputs_of(case), options) != key:
         raise DataError(
             Problem(
                 "other_inputs",

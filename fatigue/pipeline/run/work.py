@@ -1,11 +1,13 @@
 """The job of an assessment, opened: any group of welds can be assessed from it, in any order, by any thread."""
 
+import hashlib
 import logging
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
+from typing import Any
 
-from fatigue.case import Case
+from fatigue.case import Case, numbers_text
 from fatigue.errors import DataError, refuse
 from fatigue.life.bounds.path_extent import path_extent
 from fatigue.life.bounds.screening import modal_extent
@@ -178,9 +180,26 @@ def inputs_of(case: Case) -> list[dict[str, str]]:
     return input_register(input_paths(case), case.path.parent)
 
 
-def key_of(inputs: Sequence[dict[str, str]], options: ScreeningOptions) -> str:
-    """Key of everything the numbers of a job depend on: equal keys, equal bytes."""
+def key_of(case: Case, inputs: Sequence[dict[str, str]], options: ScreeningOptions) -> str:
+    """Key of everything the numbers of a job depend on: equal keys, equal bytes.
+
+    Who answers for the report of the case is no part of it.
+    """
     cut = (GROUPS, SMALLEST_GROUP, LARGEST_GROUP, BLOCK)
     return state_key(
-        {"inputs": list(inputs), "software": software_versions(), "groups": cut, "counted": asdict(options)}
+        {
+            "inputs": _without_identity(case, inputs),
+            "software": software_versions(),
+            "groups": cut,
+            "counted": asdict(options),
+        }
     )
+
+
+def _without_identity(case: Case, inputs: Sequence[dict[str, str]]) -> list[dict[str, Any]]:
+    """The inputs, the case file as it would be without ``[report]``."""
+    if case.report.is_empty:
+        return list(inputs)
+    content = numbers_text(case.text).encode()
+    of_case = {"bytes": len(content), "sha256": hashlib.sha256(content).hexdigest()}
+    return [entry | of_case if entry["file"] == case.path.name else entry for entry in inputs]

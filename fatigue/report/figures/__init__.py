@@ -1,4 +1,4 @@
-"""The figures of the report as functions of tables, for notebooks too: each returns a plotly figure.
+"""The figures of the report as functions of tables, for notebooks too: ``.plotly()`` of each is a plotly figure.
 
 They take the tables of a result folder as ``pandas.read_parquet`` or ``fatigue.read_table`` reads them, or a
 part of their rows.
@@ -12,6 +12,7 @@ from fatigue.report.figures.domains import (
     ratio_histogram,
     time_against_frequency,
 )
+from fatigue.report.figures.drawn import Figure
 from fatigue.report.figures.lines import along_weld
 from fatigue.report.figures.load_spectra import class_matrices, crossings_by_level, spectrum_exceedance
 from fatigue.report.figures.overview import damage_by_event, shares, weld_lives, weld_strips
@@ -27,6 +28,7 @@ __all__ = [
     "CONFIG",
     "TEMPLATE",
     "BodyOutline",
+    "Figure",
     "along_weld",
     "bands_of_welds",
     "body_outline",

@@ -3,11 +3,12 @@
 from collections.abc import Mapping
 
 import numpy as np
-import plotly.graph_objects as go
+import pandas as pd
 from numpy.typing import NDArray
 
 from fatigue.life.curves import DamageLaw
 from fatigue.life.rule import cycle_damage
+from fatigue.report.figures.drawn import Figure, Trace
 from fatigue.report.figures.given import ResultTable, check_known, check_one_each, frame_of
 from fatigue.report.figures.style import (
     DASHES,
@@ -15,7 +16,6 @@ from fatigue.report.figures.style import (
     QUIET,
     SEQUENTIAL,
     SHARES,
-    Trace,
     axis,
     colour_bar,
     event_colours,
@@ -32,7 +32,7 @@ CLASSES_PER_DECADE = 8  # of equivalent ranges on the S-N curve
 STAIRS = 60
 
 
-def rainflow_matrices(cycles: ResultTable, per_km: NDArray[np.float64]) -> go.Figure:
+def rainflow_matrices(cycles: ResultTable, per_km: NDArray[np.float64]) -> Figure:
     """Rainflow matrix and damage matrix side by side: mean over range in equal classes, empty classes white.
 
     ``cycles`` has the columns of the table of cycles; ``per_km`` (c,) is how often each cycle occurs [1/km].
@@ -85,22 +85,27 @@ def counts_matrix(
     }
 
 
-def exceedance(cycles: ResultTable, passes_per_km: Mapping[str, float], most: int = 6) -> go.Figure:
+def exceedance(cycles: ResultTable, passes_per_km: Mapping[str, float], most: int = 6) -> Figure:
     """Range exceedance: how often each stress range is reached in 1e6 km, by event and for the whole mission.
 
     ``cycles`` has the columns of the table of cycles; ``most`` events, those with the largest ranges, are drawn.
     """
     cycles = frame_of(cycles, "cycles", ("event", "range_MPa", "count"))
-    check_known(cycles["event"], passes_per_km, "passes_per_km", "event")
+    check_known(cycles["event"].unique(), passes_per_km, "passes_per_km", "event")
     colours = event_colours(list(passes_per_km))
-    ranges, event = cycles["range_MPa"].to_numpy(), cycles["event"].to_numpy()
-    count = 1e6 * cycles["event"].map(passes_per_km).to_numpy(dtype=np.float64) * cycles["count"].to_numpy()
-    largest = cycles.groupby("event", sort=False)["range_MPa"].max().sort_values(ascending=False, kind="stable")
+    ranges = cycles["range_MPa"].to_numpy()
+    codes, events = pd.factorize(cycles["event"])
+    passes = np.array([passes_per_km[event] for event in events])
+    count = 1e6 * passes[codes] * cycles["count"].to_numpy()
+    largest = np.full(len(events), -np.inf)
+    np.maximum.at(largest, codes, ranges)
+    event = {events[code]: codes == code for code in np.argsort(-largest, kind="stable")[:most]}
     data = [_stairs(ranges, count, "mission", INK, 2.2)]
-    for name in (name for name in passes_per_km if name in set(largest.index[:most])):
-        if (count[event == name] < 0.0).any():  # a sequence: a difference, which is in the line of the mission
+    for name in (name for name in passes_per_km if name in event):
+        at = event[name]
+        if (count[at] < 0.0).any():  # a sequence: a difference, which is in the line of the mission
             continue
-        data.append(_stairs(ranges[event == name], count[event == name], in_figure(name), colours[name], 1.4))
+        data.append(_stairs(ranges[at], count[at], in_figure(name), colours[name], 1.4))
     text = f"largest {number(ranges.max())} MPa<br>{number(count.sum())} cycles in 1e6 km"
     reached = [float(d["x"][0]) for d in data if len(d["x"]) and d["x"][0] > 0.0]
     x = log_axis(
@@ -141,7 +146,7 @@ def cumulative(
 
 def sn_with_spectrum(
     cycles: ResultTable, per_target: NDArray[np.float64], laws: Mapping[str, DamageLaw], used: str, unit: str
-) -> go.Figure:
+) -> Figure:
     """S-N curves at their survival levels with the cumulative spectrum of the target mileage on them.
 
     Parameters

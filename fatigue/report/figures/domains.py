@@ -4,10 +4,10 @@ from collections.abc import Mapping
 
 import numpy as np
 import pandas as pd
-import plotly.graph_objects as go
 from numpy.typing import NDArray
 
 from fatigue.report.figures.cycles import cumulative
+from fatigue.report.figures.drawn import Figure, Trace
 from fatigue.report.figures.given import ResultTable, check_known, check_one_each, frame_of
 from fatigue.report.figures.style import (
     ACCENT,
@@ -15,7 +15,6 @@ from fatigue.report.figures.style import (
     QUIET,
     SEQUENTIAL,
     SERIES,
-    Trace,
     axis,
     colour_bar,
     drawn_life,
@@ -44,7 +43,7 @@ RAREST = 0.1  # cycles of a pass that are drawn
 FACTOR_BANDS = ((1, "solid"), (2, "dash"), (3, "dot"))
 
 
-def time_against_frequency(nodes: ResultTable) -> go.Figure:
+def time_against_frequency(nodes: ResultTable) -> Figure:
     """Dirlik's life over the rainflow life at the same bending ratio, all points, with bands of factor 2 and 3.
 
     ``nodes`` has the columns of the table of nodes and ``kurtosis``: of the stress in the governing event, 3 for a
@@ -126,7 +125,7 @@ def _points(shown: pd.DataFrame, verdict: str, number: int) -> Trace:
     }
 
 
-def ratio_histogram(nodes: ResultTable) -> go.Figure:
+def ratio_histogram(nodes: ResultTable) -> Figure:
     """How the damage ratio Dirlik / rainflow is spread over the points, on a logarithmic axis."""
     nodes = frame_of(nodes, "nodes", ("dirlik_ratio",), empty=True)
     ratio = nodes["dirlik_ratio"].to_numpy(dtype=np.float64)
@@ -162,14 +161,14 @@ def _names(points: pd.DataFrame) -> list[str]:
     ]
 
 
-def damage_by_method(damage: ResultTable, passes_per_km: Mapping[str, float], most: int = 8) -> go.Figure:
+def damage_by_method(damage: ResultTable, passes_per_km: Mapping[str, float], most: int = 8) -> Figure:
     """Damage of one point by every method, event by event and in all: over the counted damage of all events together.
 
     ``damage`` has its rows of the table of damage. Events without a spectrum, and sequences, are left out: estimates
     have nothing of them. ``most`` events are drawn, those that damage most; together are all of them.
     """
     damage = frame_of(damage, "damage", ("event", *METHODS.values()))
-    check_known(damage["event"], passes_per_km, "passes_per_km", "event")
+    check_known(damage["event"].unique(), passes_per_km, "passes_per_km", "event")
     events = damage[damage[list(METHODS.values())].notna().all(axis=1)]
     weights = events["event"].map(passes_per_km).astype(float)
     per_km = events[list(METHODS.values())].astype(float).mul(weights, axis=0)
@@ -193,7 +192,7 @@ def damage_by_method(damage: ResultTable, passes_per_km: Mapping[str, float], mo
     return figure(bars, height=340, barmode="group", xaxis=axis("", type="category"), yaxis=y)
 
 
-def ranges_by_method(cycles: ResultTable, moments: NDArray[np.float64], duration: float) -> go.Figure:
+def ranges_by_method(cycles: ResultTable, moments: NDArray[np.float64], duration: float) -> Figure:
     """How often each stress range is reached in one pass of an event: counted, and as Dirlik expects of its spectrum.
 
     Parameters

@@ -5,9 +5,9 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-import plotly.graph_objects as go
 from numpy.typing import ArrayLike, NDArray
 
+from fatigue.report.figures.drawn import Figure, Trace
 from fatigue.report.figures.given import (
     ResultTable,
     check_one_each,
@@ -25,7 +25,6 @@ from fatigue.report.figures.style import (
     MISSED,
     PAPER,
     SERIES,
-    Trace,
     across,
     axis,
     drawn_life,
@@ -52,7 +51,7 @@ def along_weld(
     stress: Mapping[str, ArrayLike] | None = None,
     event: str = "",
     marked: tuple[int, int, str] | None = None,
-) -> go.Figure:
+) -> Figure:
     """Life, load factor and stress of one weld over its arc length, both faces, zoomed together.
 
     Parameters

@@ -4,12 +4,12 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 import pandas as pd
-import plotly.graph_objects as go
 from numpy.typing import NDArray
 
 from fatigue.report.figures.cycles import corner_note, counts_matrix
+from fatigue.report.figures.drawn import Figure, Trace
 from fatigue.report.figures.given import ResultTable, frame_of
-from fatigue.report.figures.style import INK, MISSED, QUIET, Trace, axis, event_colours, figure, log_axis, single
+from fatigue.report.figures.style import INK, MISSED, QUIET, axis, event_colours, figure, log_axis, single
 from fatigue.report.wording import in_figure, number
 
 Floats = NDArray[np.float64]
@@ -19,7 +19,7 @@ MOST_EVENTS = 6
 PER_1E6_KM = 1e6
 
 
-def spectrum_exceedance(spectrum: ResultTable, events: Sequence[str] = ()) -> go.Figure:
+def spectrum_exceedance(spectrum: ResultTable, events: Sequence[str] = ()) -> Figure:
     """Exceedance of stress ranges in 1e6 km in logarithmic axes: mission, its events, and what was measured.
 
     Parameters
@@ -69,7 +69,7 @@ def _reached(rows: pd.DataFrame) -> tuple[Floats, Floats]:
     return np.append(reached[there], end), np.append(lower[there], np.full(len(end), top))
 
 
-def class_matrices(range_mean: ResultTable, from_to: ResultTable) -> go.Figure:
+def class_matrices(range_mean: ResultTable, from_to: ResultTable) -> Figure:
     """Range-mean matrix and from-to matrix side by side: cycles in 1e6 km, empty classes white.
 
     Both take rows of one point and one event of the tables of these names.
@@ -106,7 +106,7 @@ def _grid(cells: pd.DataFrame, row: str, column: str) -> tuple[Floats, Floats, F
     return edges[0], edges[1], counts
 
 
-def crossings_by_level(level_crossings: ResultTable, events: Sequence[str] = ()) -> go.Figure:
+def crossings_by_level(level_crossings: ResultTable, events: Sequence[str] = ()) -> Figure:
     """How often each stress level is crossed upwards in 1e6 km, by event and for the mission.
 
     ``level_crossings`` are rows of one point of the table of this name; ``events`` as in ``spectrum_exceedance``.

@@ -4,9 +4,9 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 import pandas as pd
-import plotly.graph_objects as go
 from numpy.typing import NDArray
 
+from fatigue.report.figures.drawn import Figure, Trace
 from fatigue.report.figures.given import ResultTable, check_known, check_one_each, check_target, frame_of
 from fatigue.report.figures.style import (
     ACCENT,
@@ -15,7 +15,6 @@ from fatigue.report.figures.style import (
     MISSED,
     QUIET,
     SEQUENTIAL,
-    Trace,
     axis,
     drawn_life,
     event_colours,
@@ -32,7 +31,7 @@ STRIP_CELLS = 120
 _OF_WELDS = ("weld", "life_km", "life_years", "utilisation", "load_factor", "fulfilled")
 
 
-def weld_lives(welds: ResultTable, target_km: float, most: int = 30) -> go.Figure:
+def weld_lives(welds: ResultTable, target_km: float, most: int = 30) -> Figure:
     """Life of the worst point of every weld against the target, worst on top.
 
     ``welds`` has the columns of the weld register; of those assessed at most ``most`` are drawn.
@@ -98,7 +97,7 @@ def weld_lives(welds: ResultTable, target_km: float, most: int = 30) -> go.Figur
     )
 
 
-def weld_strips(nodes: ResultTable, target_km: float, most: int = 60) -> go.Figure:
+def weld_strips(nodes: ResultTable, target_km: float, most: int = 60) -> Figure:
     """Every weld line as a strip coloured by the shorter life of its toe faces, worst weld on top.
 
     ``nodes`` has the columns of the table of nodes; parts of a weld split at its kinks follow each other. A strip has
@@ -109,7 +108,8 @@ def weld_strips(nodes: ResultTable, target_km: float, most: int = 60) -> go.Figu
     toes = nodes[nodes["toe"]]
     worst = toes.groupby("weld", sort=False)["utilisation"].max()
     shown = worst.sort_values(ascending=False, kind="stable").index[:most]
-    of_weld = dict(list(toes[toes["weld"].isin(shown)].groupby("weld", sort=False)))
+    places = toes[toes["weld"].isin(shown)].groupby(["weld", "part", "order", "arc_length_mm"], sort=False)
+    of_weld = dict(list(places["life_km"].min().reset_index().groupby("weld", sort=False)))
     strips = np.stack([_strip(of_weld[weld]) for weld in shown])
     scale = life_scale(target_km)
     data = [
@@ -135,7 +135,7 @@ def weld_strips(nodes: ResultTable, target_km: float, most: int = 60) -> go.Figu
     )
 
 
-def damage_by_event(points: Sequence[str], shares: ResultTable, weights: Mapping[str, str], most: int = 6) -> go.Figure:
+def damage_by_event(points: Sequence[str], shares: ResultTable, weights: Mapping[str, str], most: int = 6) -> Figure:
     """Stacked bars: share of each event in the damage of each point.
 
     Parameters
@@ -180,7 +180,7 @@ def damage_by_event(points: Sequence[str], shares: ResultTable, weights: Mapping
     )
 
 
-def shares(labels: Sequence[str], values: NDArray[np.float64], title: str) -> go.Figure:
+def shares(labels: Sequence[str], values: NDArray[np.float64], title: str) -> Figure:
     """Bars of shares, the first on top; a negative one relieves."""
     check_one_each(values, labels, "values")
     rows = list(range(len(labels)))
@@ -211,9 +211,8 @@ def shares(labels: Sequence[str], values: NDArray[np.float64], title: str) -> go
     )
 
 
-def _strip(points: pd.DataFrame) -> NDArray[np.float64]:
-    """Shortest life in each cell of one weld line; empty cells take the life of the nearest node."""
-    worst = points.groupby(["part", "order", "arc_length_mm"], sort=False)["life_km"].min().reset_index()
+def _strip(worst: pd.DataFrame) -> NDArray[np.float64]:
+    """Shortest life in each cell of one weld line, of that at its places; empty cells take that of the nearest."""
     lengths = worst.groupby("part")["arc_length_mm"].max()
     begins = (lengths.cumsum() - lengths).reindex(worst["part"]).to_numpy()
     place = (worst["arc_length_mm"].to_numpy() + begins) / max(lengths.sum(), 1e-9)

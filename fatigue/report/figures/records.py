@@ -3,16 +3,15 @@
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-import plotly.graph_objects as go
 from numpy.typing import NDArray
 
+from fatigue.report.figures.drawn import Figure, Trace
 from fatigue.report.figures.given import check_one_each
 from fatigue.report.figures.style import (
     ACCENT,
     INK,
     QUIET,
     SERIES,
-    Trace,
     across,
     axis,
     figure,
@@ -29,7 +28,7 @@ PSD_DECADES = 6
 PANEL_GAP, EXCERPT_GAP = 0.12, 0.01  # between cycles, of a panel; between the reversals of one, of the figure
 
 
-def stress_history(envelope: Envelope, excerpts: Sequence[Excerpt], modes: Mapping[int, str], colour: str) -> go.Figure:
+def stress_history(envelope: Envelope, excerpts: Sequence[Excerpt], modes: Mapping[int, str], colour: str) -> Figure:
     """Stress over the whole record of an event, and close by around the instants of one cycle with the parts of modes.
 
     ``modes`` names the modes of the excerpts; their parts are drawn about their own mean. One or two excerpts, or none:
@@ -62,7 +61,7 @@ def stress_history(envelope: Envelope, excerpts: Sequence[Excerpt], modes: Mappi
     return figure(data, height=440, shapes=bands, **layout)
 
 
-def cycles_close_by(cycles: Sequence[Sequence[Excerpt]], titles: Sequence[str], modes: Mapping[int, str]) -> go.Figure:
+def cycles_close_by(cycles: Sequence[Sequence[Excerpt]], titles: Sequence[str], modes: Mapping[int, str]) -> Figure:
     """Stress around the reversals of some cycles, each in a panel of its own, with the parts of modes.
 
     ``cycles`` has the one or two excerpts of each, one where both reversals are close; ``titles`` names the cycles and
@@ -128,7 +127,7 @@ def stress_spectrum(
     colours: Mapping[str, str],
     modes: Mapping[str, tuple[float, float]],
     governing: str,
-) -> go.Figure:
+) -> Figure:
     """Stress spectra of some events with the natural frequencies that matter; the cumulative variance below.
 
     ``modes`` gives frequency [Hz] and share of the variance of each mode to be marked; the cumulative variance is that

@@ -4,24 +4,11 @@ from itertools import pairwise
 
 import numpy as np
 import pandas as pd
-import plotly.graph_objects as go
 from numpy.typing import NDArray
 
+from fatigue.report.figures.drawn import Figure, Trace
 from fatigue.report.figures.given import ResultTable, frame_of
-from fatigue.report.figures.style import (
-    ACCENT,
-    GRID,
-    INK,
-    MISSED,
-    QUIET,
-    Trace,
-    across,
-    axis,
-    figure,
-    shaded,
-    single,
-    upright,
-)
+from fatigue.report.figures.style import ACCENT, GRID, INK, MISSED, QUIET, across, axis, figure, shaded, single, upright
 from fatigue.report.wording import in_figure, number, share
 
 Floats = NDArray[np.float64]
@@ -39,7 +26,7 @@ def hunting_along_event(
     flutter_track: ResultTable | None = None,
     coincidence: ResultTable | None = None,
     hot_factor: float | None = None,
-) -> go.Figure:
+) -> Figure:
     """Dominant frequency of a channel along its event, hot stretches shaded; below it the rms over its reference.
 
     Parameters
@@ -226,7 +213,7 @@ def _merged(hot: pd.DataFrame, unit: str, ends: list[float]) -> list[tuple[float
     return spans
 
 
-def damage_in_hot_stretches(hot_damage: ResultTable) -> go.Figure:
+def damage_in_hot_stretches(hot_damage: ResultTable) -> Figure:
     """Share of the damage of an event in the hot stretches of a channel, weld by weld, and that of its length.
 
     ``hot_damage`` are rows of one event and channel of the table of this name, the first of them on top. Where the

@@ -5,11 +5,11 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-import plotly.graph_objects as go
 from numpy.typing import ArrayLike, NDArray
 
+from fatigue.report.figures.drawn import Figure, Trace
 from fatigue.report.figures.given import ResultTable, check_target, frame_of
-from fatigue.report.figures.style import BODY, PAPER, Trace, axis, drawn_life, figure, life_scale, single
+from fatigue.report.figures.style import BODY, PAPER, axis, drawn_life, figure, life_scale, single
 from fatigue.report.wording import in_figure, life_km, life_years, number
 
 LABELLED_STATIONS = 20_000  # beyond, texts at every station would outweigh the page
@@ -71,9 +71,7 @@ def line_rows(stations: ResultTable, closed: frozenset[str]) -> NDArray[np.int64
     return np.concatenate(drawn).astype(np.int64)
 
 
-def scene(
-    stations: ResultTable, rows: NDArray[np.int64], target_km: float, body: BodyOutline | None = None
-) -> go.Figure:
+def scene(stations: ResultTable, rows: NDArray[np.int64], target_km: float, body: BodyOutline | None = None) -> Figure:
     """Draw all weld lines in 3-D, coloured by log10 of their life, over the body in grey.
 
     Parameters
@@ -109,7 +107,7 @@ def scene(
 
 def projections(
     stations: ResultTable, rows: NDArray[np.int64], target_km: float, body: BodyOutline | None = None
-) -> go.Figure:
+) -> Figure:
     """Draw the same in side view and plan for paper, true to scale; of very many stations every so manyth."""
     stations = frame_of(stations, "stations", (*_PLACE, "life_km"))
     check_target(target_km)

@@ -1,9 +1,9 @@
 """The path of a toe in the plane of normal stress and shear."""
 
 import numpy as np
-import plotly.graph_objects as go
 from numpy.typing import NDArray
 
+from fatigue.report.figures.drawn import Figure
 from fatigue.report.figures.style import ACCENT, MISSED, axis, figure, single
 
 Floats = NDArray[np.float64]
@@ -11,7 +11,7 @@ Floats = NDArray[np.float64]
 LONGEST = 3000  # samples that are drawn
 
 
-def shear_path(normal: Floats, shear: Floats, beta: float = 3.0, ends: tuple[int, int] | None = None) -> go.Figure:
+def shear_path(normal: Floats, shear: Floats, beta: float = 3.0, ends: tuple[int, int] | None = None) -> Figure:
     """Path of a toe: shear times sqrt(beta) over normal stress, in one scale.
 
     Parameters

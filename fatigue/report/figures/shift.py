@@ -4,18 +4,18 @@ from collections.abc import Sequence
 
 import numpy as np
 import pandas as pd
-import plotly.graph_objects as go
 
 from fatigue.report.figures.cycles import corner_note
+from fatigue.report.figures.drawn import Figure, Trace
 from fatigue.report.figures.given import ResultTable, check_target, frame_of
-from fatigue.report.figures.style import DASHES, SERIES, Trace, across, axis, drawn_life, figure, life_axis, upright
+from fatigue.report.figures.style import DASHES, SERIES, across, axis, drawn_life, figure, life_axis, upright
 from fatigue.report.wording import in_figure
 
 SCREENING = "screening without feedback"
 _COLUMNS = ("weld", "frequency_hz", "damping_ratio", "life_km", "is_as_assessed", "is_worst_of_weld")
 
 
-def life_against_setting(shift: ResultTable, welds: Sequence[str], target_km: float) -> go.Figure:
+def life_against_setting(shift: ResultTable, welds: Sequence[str], target_km: float) -> Figure:
     """Life of the worst point of some welds against frequency, or against damping where that alone moves.
 
     Parameters

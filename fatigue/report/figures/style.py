@@ -1,15 +1,12 @@
-"""One look for all figures: typeface, inks, colours of faces and events, one colour scale per quantity.
-
-Figures are put together as plain dictionaries and handed to plotly once: its checks then run once as well.
-"""
+"""One look for all figures: typeface, inks, colours of faces and events, one colour scale per quantity."""
 
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-import plotly.graph_objects as go
 from numpy.typing import ArrayLike, NDArray
 
+from fatigue.report.figures.drawn import Figure, Trace
 from fatigue.report.wording import LONGEST
 
 # Plotly's mode bar offers by default to upload the figure to a cloud service.
@@ -28,7 +25,20 @@ FACE_DASH = {"top": "solid", "bottom": "dash"}
 DASHES = ("solid", "dash", "dot", "dashdot")
 # Okabe and Ito's colours for colour-blind readers, without the yellow that paper swallows.
 SERIES = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#5c6773")
-SEQUENTIAL = "Viridis"  # perceptually uniform and safe for colour-blind readers; dark is the small end
+# Viridis: perceptually uniform and safe for colour-blind readers; dark is the small end.
+_VIRIDIS = (
+    "#440154",
+    "#482878",
+    "#3e4989",
+    "#31688e",
+    "#26828e",
+    "#1f9e89",
+    "#35b779",
+    "#6ece58",
+    "#b5de2b",
+    "#fde725",
+)
+SEQUENTIAL = [[i / (len(_VIRIDIS) - 1), colour] for i, colour in enumerate(_VIRIDIS)]
 SHARES = [[0.0, "#ffffff"], [0.5, "#5b9bbd"], [1.0, "#083a59"]]  # of damage: white is none
 
 _AXIS = {
@@ -43,8 +53,8 @@ _AXIS = {
     "title": {"standoff": 8, "font": {"size": 12}},
     "exponentformat": "none",
 }
-TEMPLATE = go.layout.Template(
-    layout={
+TEMPLATE: dict[str, Any] = {
+    "layout": {
         "font": {"family": FONT, "size": 12, "color": INK},
         "paper_bgcolor": PAPER,
         "plot_bgcolor": PAPER,
@@ -63,14 +73,12 @@ TEMPLATE = go.layout.Template(
         "xaxis": _AXIS,
         "yaxis": _AXIS,
     }
-)
-
-Trace = dict[str, Any]
+}
 
 
-def figure(data: Sequence[Trace], height: int, **layout: Any) -> go.Figure:
+def figure(data: Sequence[Trace], height: int, **layout: Any) -> Figure:
     """Figure in the common look."""
-    return go.Figure(data=list(data), layout={"template": TEMPLATE, "height": height, **layout})
+    return Figure(list(data), {"template": TEMPLATE, "height": height, **layout})
 
 
 def axis(title: str, **more: Any) -> dict[str, Any]:

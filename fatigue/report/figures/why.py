@@ -4,9 +4,9 @@ from collections.abc import Sequence
 
 import numpy as np
 import pandas as pd
-import plotly.graph_objects as go
 from numpy.typing import NDArray
 
+from fatigue.report.figures.drawn import Figure
 from fatigue.report.figures.given import ResultTable, check_one_each, frame_of
 from fatigue.report.figures.style import (
     ACCENT,
@@ -23,7 +23,7 @@ from fatigue.report.figures.style import (
 from fatigue.report.wording import in_figure, share
 
 
-def damage_by_band(bands: ResultTable, modes: Sequence[float] = ()) -> go.Figure:
+def damage_by_band(bands: ResultTable, modes: Sequence[float] = ()) -> Figure:
     """Share of each frequency band in the damage of one point.
 
     Parameters
@@ -57,7 +57,7 @@ def damage_by_band(bands: ResultTable, modes: Sequence[float] = ()) -> go.Figure
     )
 
 
-def bands_of_welds(welds: Sequence[str], shares: NDArray[np.float64], bands: ResultTable) -> go.Figure:
+def bands_of_welds(welds: Sequence[str], shares: NDArray[np.float64], bands: ResultTable) -> Figure:
     """Map of the damage: worst points of the welds, worst on top, over frequency bands.
 
     ``shares`` is (weld, band); ``bands`` gives ``low_hz`` and ``high_hz`` (NaN: no upper end) of each, ascending.
@@ -94,7 +94,7 @@ def bands_of_welds(welds: Sequence[str], shares: NDArray[np.float64], bands: Res
     )
 
 
-def damage_on_track(track: ResultTable) -> go.Figure:
+def damage_on_track(track: ResultTable) -> Figure:
     """Where on the record of one event the damage is made: intensity 1 is its average.
 
     ``track`` has the columns ``start_km, end_km, start_s, end_s, share, intensity`` of one point and event; time is

@@ -27,7 +27,7 @@ def recomputed(result: ShownResult) -> list[Recomputed]:
     welds = result.assessed.set_index("weld")
     for weld in result.detailed:
         known = result.worst(weld)["damage_per_km"]
-        cycles = result.cycles(weld, ["event", "count", "equivalent_range_dS"])
+        cycles = result.cycles(weld)
         used = assumptions_of(result.record, welds.loc[weld, "curve"])
         if weld in result.merged:  # from its cycles one by one all the same
             again = result.merged[weld].damage_per_km

@@ -111,8 +111,9 @@ def all_marked(table: PageTable, headings: Collection[str]) -> PageTable:
 
 
 def _marked(row: tuple[Cell, ...], columns: Sequence[int]) -> tuple[Cell, ...]:
+    word = " (unverified)"
     return tuple(
-        replace(cell, text=f"{cell.text} (unverified)") if i in columns else cell for i, cell in enumerate(row)
+        replace(cell, text=cell.text + word, after=word) if i in columns else cell for i, cell in enumerate(row)
     )
 
 

@@ -5,7 +5,7 @@ import pandas as pd
 from fatigue.report.inputs import FoundInputs
 from fatigue.report.result import ShownResult
 from fatigue.report.sections.point.detail import COMPONENTS, Detail, DetailedPoint, point_details
-from fatigue.report.sections.point.worst_cycles import OF_CYCLES, leading_event, most_damaging
+from fatigue.report.sections.point.worst_cycles import leading_event, most_damaging
 
 
 def weld_details(result: ShownResult, inputs: FoundInputs) -> tuple[dict[str, Detail], dict[str, float]]:
@@ -33,7 +33,7 @@ def _welds(result: ShownResult) -> dict[str, DetailedPoint]:
             stations=components,
             shear=components["in-plane shear"][at] + sign * twist[name][1][0][at] if by_model else None,
             governing_event=governing[name],
-            cycles=most_damaging(result.cycles(name, OF_CYCLES), governing[name], 1),
+            cycles=most_damaging(result.cycles(name), governing[name], 1),
         )
     return {name: welds[name] for name in result.detailed}
 

@@ -4,9 +4,9 @@ import json
 from dataclasses import dataclass, field
 from typing import Any
 
-import plotly.graph_objects as go
 from markupsafe import Markup
 
+from fatigue.report.figures.drawn import Figure
 from fatigue.shown import visible
 
 
@@ -37,11 +37,10 @@ class Figures:
         """The same figures, numbered on; the ids of those to come begin with the prefix, and end with the mark."""
         return Figures(self.shown, prefix, mark)
 
-    def add(self, id_: str, fig: go.Figure, caption: str, *, wide: bool = False, of_curve: bool = True) -> Shown:
+    def add(self, id_: str, fig: Figure, caption: str, *, wide: bool = False, of_curve: bool = True) -> Shown:
         """Figure as the page shows it; the template that all share is in the page once and not in each."""
         caption += self.mark if of_curve else ""
-        content = json.loads(fig.to_json(remove_uids=True))
-        content["layout"].pop("template")
+        content = fig.content()
         height = int(content["layout"].pop("height"))
         shown = Shown(self.prefix + id_, len(self.shown) + 1, caption, height, embedded(content), wide)
         self.shown.append(shown)

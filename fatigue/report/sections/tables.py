@@ -10,6 +10,7 @@ from fatigue.report.sections.cells import (
     Cell,
     Heading,
     PageTable,
+    given,
     integer,
     life,
     linked,
@@ -39,7 +40,7 @@ def weld_table(welds: pd.DataFrame, links: Mapping[str, str], most: int = 10) ->
             *(cell(getattr(row, name)) for name, cell in LIFE_COLUMNS.items()),
             integer(row.worst_node),
             text(row.worst_surface),
-            num(row.worst_arc_length_mm),
+            given(row.worst_arc_length_mm),
             text(row.governing_event),
         )
         for row in welds[welds["status"] == "assessed"].head(most).itertuples()
@@ -137,7 +138,7 @@ def _register_row(row: Any, links: Mapping[str, str]) -> tuple[Cell, ...]:
         *(num(None) if not is_assessed else cell(getattr(row, name)) for name, cell in LIFE_COLUMNS.items()),
         text(row.description),
         text(_status(row)),
-        num(row.length_mm),
+        given(row.length_mm),
         integer(row.nodes, grouped=True),
         integer(row.parts),
         text(None if pd.isna(row.closed) else "closed" if row.closed else "open"),
@@ -145,7 +146,7 @@ def _register_row(row: Any, links: Mapping[str, str]) -> tuple[Cell, ...]:
         text(row.surface),
         text(row.curve),
         text(row.survival),
-        Cell("plate thickness", 0.0) if is_assessed and pd.isna(row.end_length_mm) else num(row.end_length_mm),
+        Cell("plate thickness", 0.0) if is_assessed and pd.isna(row.end_length_mm) else given(row.end_length_mm),
     )
 
 
@@ -161,14 +162,14 @@ def event_table(
             (
                 text(name),
                 text(None) if event["share"] is None else percent(event["share"]),
-                num(event["per_1000_km"]),
-                num(length),
+                given(event["per_1000_km"]),
+                given(length),
                 num(event["passes_per_km"]),
                 integer(event["samples"], grouped=True),
-                num(duration),
-                num(3600.0 * length / duration if duration and length else None),
-                num(event["start_s"]),
-                num(event["stress_factor"]),
+                given(duration),
+                given(3600.0 * length / duration if duration and length else None),
+                given(event["start_s"]),
+                given(event["stress_factor"]),
                 text(residues[name].split(":")[0]),
             )
         )
@@ -199,7 +200,7 @@ def gravity_table(gravity: Sequence[Mapping[str, Any]]) -> PageTable | None:
             num(one["beta"]),
             num(one["cos"]),
             text("removed" if one["mean_of_q"] == "remove" else "kept"),
-            num(one["given"]),
+            given(one["given"]),
         )
         for one in gravity
     ]
@@ -217,7 +218,7 @@ def gravity_table(gravity: Sequence[Mapping[str, Any]]) -> PageTable | None:
 def mode_table(modes: Mapping[str, Any]) -> PageTable:
     """The modes used."""
     rows = tuple(
-        (integer(mode), num(frequency), text(kind))
+        (integer(mode), given(frequency), text(kind))
         for mode, frequency, kind in zip(modes["used"], modes["frequency_hz"], modes["kind"], strict=True)
     )
     return PageTable(
@@ -240,7 +241,7 @@ def audit_table(conversion: Mapping[str, Any] | None) -> PageTable | None:
     if conversion is None:
         return None
     rows = tuple(
-        (text(row["check"]), text(row["light"]), num(row["value"]), text(row["finding"]), text(row["remedy"]))
+        (text(row["check"]), text(row["light"]), num(row["value"], ""), text(row["finding"]), text(row["remedy"]))
         for row in conversion["audit"]
     )
     words = tuple(Heading(name, numeric=name == "value") for name in ("check", "light", "value", "finding", "remedy"))
@@ -257,7 +258,7 @@ def verification_table(checks: Sequence[Mapping[str, Any]]) -> PageTable | None:
             text(check["case"]),
             text(check["quantity"]),
             Cell(f"{number(check['expected'])} {check['unit'].strip('-')}".strip(), float(check["expected"])),
-            num(check["found"]),
+            num(check["found"], ""),
             Cell(f"{check['difference']:.1e}", float(check["difference"])),
             Cell(f"{check['tolerance']:.0e}", float(check["tolerance"])),
             Cell("✓", 1.0) if check["passed"] else Cell("✕ wrong", 0.0, mark="missed"),

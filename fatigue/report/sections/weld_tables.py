@@ -5,8 +5,9 @@ from collections.abc import Mapping
 import numpy as np
 import pandas as pd
 
-from fatigue.report.sections.cells import Cell, Heading, PageTable, integer, life, num, percent, text
-from fatigue.report.wording import NOT_AVAILABLE, life_km, life_years, listed, number
+from fatigue.report import wording
+from fatigue.report.sections.cells import Cell, Heading, PageTable, given, integer, life, num, percent, text
+from fatigue.report.wording import NOT_AVAILABLE, life_km, life_years, listed
 
 
 def facts(point: pd.Series, row: pd.Series, curve: str) -> list[tuple[str, str]]:
@@ -17,26 +18,26 @@ def facts(point: pd.Series, row: pd.Series, curve: str) -> list[tuple[str, str]]
     corner = "corner whose nodal forces are one sum of both legs" if point["summed_corner"] else "corner"
     flags = [words for words, flag in (("weld end", point["at_end"]), (corner, point["at_corner"])) if flag]
     event = NOT_AVAILABLE if pd.isna(point["governing_event"]) else str(point["governing_event"])
-    place = f"{number(point['arc_length_mm'])} mm along part {point['part']}"
+    place = f"{wording.given(point['arc_length_mm'])} mm along part {point['part']}"
     return [
         ("Point", f"node {point['node']}, {point['surface']} face, {place}"),
-        ("Position x, y, z", ", ".join(number(point[c]) for c in ("x_mm", "y_mm", "z_mm")) + " mm"),
+        ("Position x, y, z", ", ".join(wording.given(point[c]) for c in ("x_mm", "y_mm", "z_mm")) + " mm"),
         ("Place", listed(flags) or "along the line"),
-        ("Plate", f"{number(point['thickness_mm'])} mm"),
+        ("Plate", f"{wording.given(point['thickness_mm'])} mm"),
         ("Curve", f"{curve}, {row['survival']}"),
         ("Life", f"{life_km(point['life_km'])} ({life_years(point['life_years'])})"),
-        ("Utilisation, damage", number(point["utilisation"])),
-        ("Utilisation, load", number(1.0 / point["load_factor"])),
-        ("Load factor to the target", number(point["load_factor"])),
+        ("Utilisation, damage", wording.result(point["utilisation"])),
+        ("Utilisation, load", wording.result(1.0 / point["load_factor"])),
+        ("Load factor to the target", wording.result(point["load_factor"])),
         ("Governing event", event),
-        ("Largest range", f"{number(point['max_range_MPa'])} MPa"),
-        ("Equivalent range at 2e6", f"{number(point['equivalent_range_2e6_MPa'])} MPa"),
-        ("Bending ratio", number(point["bending_ratio"])),
-        ("R of the largest cycle", number(point["R_largest_cycle"])),
-        ("Mean stress", f"{number(point['mean_stress_MPa'])} MPa"),
-        ("Shear / normal stress, rms", number(point["shear_ratio"])),
+        ("Largest range", f"{wording.result(point['max_range_MPa'])} MPa"),
+        ("Equivalent range at 2e6", f"{wording.result(point['equivalent_range_2e6_MPa'])} MPa"),
+        ("Bending ratio", wording.result(point["bending_ratio"])),
+        ("R of the largest cycle", wording.result(point["R_largest_cycle"])),
+        ("Mean stress", f"{wording.result(point['mean_stress_MPa'])} MPa"),
+        ("Shear / normal stress, rms", wording.result(point["shear_ratio"])),
         ("Life by Dirlik", _dirlik_life(point["life_km_dirlik"], str(point["dirlik_verdict"]))),
-        ("Dirlik / rainflow damage", number(point["dirlik_ratio"])),
+        ("Dirlik / rainflow damage", wording.result(point["dirlik_ratio"])),
         ("Trust in Dirlik", str(point["dirlik_verdict"]).replace("_", " ")),
         ("Life, end not treated", _raw_life(point["life_km_raw_end"])),
     ]
@@ -118,7 +119,7 @@ def lever_table(id_: str, levers: pd.DataFrame) -> PageTable:
     rows = tuple(
         (
             integer(row.mode) if pd.isna(row.unit_load) else text(row.unit_load),
-            num(row.frequency_hz),
+            given(row.frequency_hz),
             Cell(row.kind.replace("_", " ")),
             percent(row.share),
             num(row.life_exponent),

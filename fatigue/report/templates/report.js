@@ -47,7 +47,7 @@
   );
 
   // Points of the scene: what they can be coloured by, and what is shown of the one under the pointer.
-  const digits = (x, most = 4) => {  // as wording.number does
+  const digits = (x, most = 3) => {  // as wording.number does
     if (Number.isNaN(x)) return "–";
     if (x > 1e12) return "> 1e12";
     if (x === 0) return "0";

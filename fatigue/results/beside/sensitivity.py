@@ -43,17 +43,16 @@ class Sensitivity:
     @property
     def changing(self) -> list[str]:
         """Variants under which some verdict changes."""
-        return [name for name in self.variants if self.under(name)["flips"].any()]
+        changing = set(self.rows.loc[self.rows["flips"], "variant"])
+        return [name for name in self.variants if name in changing]
 
     @property
     def own(self) -> dict[str, str]:
         """Variants that change nothing at any weld, and why."""
-        found = {}
-        for name in self.variants:
-            rows = self.under(name)
-            if (rows["basis"] == AS_ASSESSED).all():
-                found[name] = " / ".join(dict.fromkeys(rows["note"]))
-        return found
+        others = set(self.rows.loc[self.rows["basis"] != AS_ASSESSED, "variant"])
+        return {
+            name: " / ".join(dict.fromkeys(self.under(name)["note"])) for name in self.variants if name not in others
+        }
 
     @property
     def steady(self) -> list[str]:

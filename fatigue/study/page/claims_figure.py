@@ -5,9 +5,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import plotly.graph_objects as go
 
-from fatigue.report.figures.style import ACCENT, GRID, MISSED, QUIET, Trace, axis, figure, log_axis, upright
+from fatigue.report.figures.drawn import Figure, Trace
+from fatigue.report.figures.style import ACCENT, GRID, MISSED, QUIET, axis, figure, log_axis, upright
 from fatigue.report.wording import in_figure, number
 from fatigue.study.claims.verdict import Says, Verdict
 
@@ -24,7 +24,7 @@ LEAST_DECADES = 0.6  # to each side of 1
 MOST_DECADES = 6.0
 
 
-def claims_figure(verdicts: Sequence[Verdict]) -> go.Figure | None:
+def claims_figure(verdicts: Sequence[Verdict]) -> Figure | None:
     """Ratio of every seed of every claim, a row for each; None where no claim has a ratio above 0.
 
     Of 'between' the right side is the geometric mean of its ends, and the shade reaches from one to the other.

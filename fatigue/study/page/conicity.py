@@ -2,8 +2,7 @@
 
 import math
 
-import plotly.graph_objects as go
-
+from fatigue.report.figures.drawn import Figure
 from fatigue.report.figures.style import ACCENT, INK, axis, figure
 from fatigue.report.wording import in_figure
 from fatigue.study.page.studied import Studied
@@ -13,7 +12,7 @@ TICKS = (0.01, 0.02, 0.03, 0.05, 0.1, 0.2, 0.3, 0.5, 1.0)
 LEAST, MOST = 0.008, 1.5
 
 
-def conicity_figure(of: Studied) -> go.Figure | None:
+def conicity_figure(of: Studied) -> Figure | None:
     """A bar for each vehicle from its least to its largest stable conicity; None where no vehicle has any."""
     numbers = {
         (one.variant, one.quantity): one.value

@@ -4,9 +4,9 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-import plotly.graph_objects as go
 
-from fatigue.report.figures.style import GRID, SERIES, Trace, axis, drawn_life, figure, log_axis
+from fatigue.report.figures.drawn import Figure, Trace
+from fatigue.report.figures.style import GRID, SERIES, axis, drawn_life, figure, log_axis
 from fatigue.report.wording import LONGEST, in_figure, number
 from fatigue.study.claims.verdict import Scatter, scatter
 from fatigue.study.page.chosen import Group
@@ -29,7 +29,7 @@ def lives_of(of: Studied) -> Lives:
     return {place: scatter([min(life, LONGEST) for life in lives], logarithmic=True) for place, lives in values.items()}
 
 
-def lives_figure(group: Group, lives: Lives) -> go.Figure | None:
+def lives_figure(group: Group, lives: Lives) -> Figure | None:
     """Mean life of each weld and its least and greatest over the seeds, a mark for each variant; None without any."""
     names = [one.name for one in group.variants]
     known = {place: found for place, found in lives.items() if place[0] in names and found.known}

@@ -4,12 +4,11 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import plotly.graph_objects as go
-
 from fatigue.case import Case, load_case
 from fatigue.errors import FatigueError
 from fatigue.readers.neutral.body.mesh import read_mesh
 from fatigue.report.figures import BodyOutline, body_outline, line_rows, projections, worst_faces
+from fatigue.report.figures.drawn import Figure
 from fatigue.report.figures.style import drawn_life
 from fatigue.results import read_table
 from fatigue.study.page.chosen import facing
@@ -28,7 +27,7 @@ class WeldMap:
 
     variant: str
     seed: int
-    drawn: go.Figure
+    drawn: Figure
 
 
 def weld_maps(of: Studied) -> list[WeldMap]:

@@ -5,14 +5,14 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-import plotly.graph_objects as go
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 from scipy.signal import welch
 
 from fatigue.case import load_case
 from fatigue.errors import FatigueError
-from fatigue.report.figures.style import DASHES, SERIES, Trace, axis, figure, log_axis, single
+from fatigue.report.figures.drawn import Figure, Trace
+from fatigue.report.figures.style import DASHES, SERIES, axis, figure, log_axis, single
 from fatigue.report.wording import in_figure
 from fatigue.ride.records import channel_records
 from fatigue.study.page.chosen import Group
@@ -53,7 +53,7 @@ def spectra_of(of: Studied, groups: Sequence[Group]) -> Spectra:
     }
 
 
-def spectra_figure(group: Group, spectra: Spectra, seeds: Sequence[int]) -> go.Figure | None:
+def spectra_figure(group: Group, spectra: Spectra, seeds: Sequence[int]) -> Figure | None:
     """Densities of the variants of a group, a panel for each channel and event; None without any."""
     every = [one for variant in group.variants for seed in seeds for one in spectra.get((variant.name, seed), ())]
     panels = list(dict.fromkeys((one.channel, one.event, one.unit) for one in every))[:MOST_PANELS]

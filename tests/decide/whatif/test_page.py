@@ -37,14 +37,14 @@ def test_a_change_without_numbers_has_a_page(result):
     assert "Nothing that is stored says what comes of" in page
     assert "counting.residue from repeat to half" in page
     assert "? not proven" in page
-    figure = lives_figure(found.welds, 500.0, 500.0)
+    figure = lives_figure(found.welds, 500.0, 500.0).plotly()
     assert [trace.name for trace in figure.data] == ["as assessed"]
 
 
 def test_the_figure_has_the_band_of_every_weld(result):
     """From low to high around the life, the target and that before as lines."""
     found = whatif(result, ["load=1.5", "curve.extension=cutoff", "mission.target_km=400"])
-    figure = lives_figure(found.welds, found.target_km, found.target_km_before)
+    figure = lives_figure(found.welds, found.target_km, found.target_km_before).plotly()
     assert [shape.x0 for shape in figure.layout.shapes] == [400.0, 500.0]
     after = [trace for trace in figure.data if trace.name != "as assessed"]
     assert sum(len(trace.x) for trace in after) == len(found.welds)

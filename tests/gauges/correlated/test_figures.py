@@ -80,11 +80,11 @@ def test_sides_that_are_not_aligned_have_a_panel_each_on_one_scale():
     both = [
         Excerpt(name, np.arange(3.0), np.array([0.0, size, -1.0])) for name, size in (("measured", 4), ("simulated", 2))
     ]
-    apart = histories(compared(None, tuple(both)))
+    apart = histories(compared(None, tuple(both))).plotly()
     assert [trace.yaxis for trace in apart.data] == ["y", "y2"]
     assert apart.layout.yaxis.range == apart.layout.yaxis2.range
     assert apart.layout.yaxis.range[1] > 4.0
-    together = histories(compared("aligned", tuple(both)))
+    together = histories(compared("aligned", tuple(both))).plotly()
     assert {trace.yaxis for trace in together.data} <= {None, "y"}
     assert histories(compared(None, ())) is None
 
@@ -92,7 +92,7 @@ def test_sides_that_are_not_aligned_have_a_panel_each_on_one_scale():
 def test_density_and_exceedance_show_both_sides():
     """Nothing above 0 breaks the line of a logarithmic axis."""
     one = compared(None, ())
-    power, cycles = densities(one), exceedances(one)
+    power, cycles = densities(one).plotly(), exceedances(one).plotly()
     assert [trace.name for trace in power.data] == ["measured", "simulated"]
     assert power.data[0].x.tolist() == [1.0, 2.0]
     assert np.isnan(power.data[0].y[1])
@@ -107,7 +107,7 @@ def test_every_spike_has_a_panel_with_its_samples():
     time = 10.0 + np.arange(5) / RATE
     marked = np.array([False, False, True, False, False])
     spike = SpikeShown("<b>r</b>.csv", time, np.array([0.0, 1, 9, 1, 0]), marked, 8.0)
-    found = spike_samples([spike, spike, spike, spike])
+    found = spike_samples([spike, spike, spike, spike]).plotly()
     assert len(found.data) == 8
     assert found.data[1].x == (10.02,)
     assert list(found.data[1].y) == [9.0]

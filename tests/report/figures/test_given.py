@@ -28,8 +28,8 @@ def test_tables_of_arrow_give_the_same_figures(result_folder):
         (figures.ratio_histogram, "nodes"),
     ):
         theirs = draw(pd.read_parquet(result_folder / f"{table}.parquet"))
-        assert draw(fatigue.read_table(result_folder, table)).to_json() == theirs.to_json()
-        assert draw(pq.read_table(result_folder / f"{table}.parquet")).to_json() == theirs.to_json()
+        assert draw(fatigue.read_table(result_folder, table)).plotly().to_json() == theirs.plotly().to_json()
+        assert draw(pq.read_table(result_folder / f"{table}.parquet")).plotly().to_json() == theirs.plotly().to_json()
 
 
 def test_the_register_may_list_welds_that_are_not_assessed(tables):
@@ -39,7 +39,7 @@ def test_the_register_may_list_welds_that_are_not_assessed(tables):
         weld="left out", utilisation=np.nan, life_km=np.nan, fulfilled=None, status="excluded"
     )
     drawn = figures.weld_lives(pd.concat([welds.astype({"fulfilled": object}), excluded]), TARGET)
-    assert drawn.to_json() == figures.weld_lives(welds, TARGET).to_json()
+    assert drawn.plotly().to_json() == figures.weld_lives(welds, TARGET).plotly().to_json()
 
 
 @pytest.mark.parametrize(

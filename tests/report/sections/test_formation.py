@@ -120,10 +120,10 @@ def test_the_ranking_names_mode_event_place_and_cost(formed):
     assert row["rank"] == "1"
     assert second[0] == "2"
     assert row["weld"] == "W1 bracket"
-    assert (row["mode"], row["frequency [Hz]"], row["class"], row["event"]) == ("1", "8.500", "resonant", "tangent")
+    assert (row["mode"], row["frequency [Hz]"], row["class"], row["event"]) == ("1", "8.50", "resonant", "tangent")
     assert row["half of it at"] == "km 0.6 to 1.8"
     assert row["share of damage [%]"] == "37.5 %"
-    assert (row["life without [km]"], row["cost [km]"]) == ("1\u202f100\u202f000", "100\u202f000")
+    assert (row["life without [million km]"], row["cost [million km]"]) == ("1.10", "0.100")
     assert "No mode to watch at any weld" not in formed.words
 
 

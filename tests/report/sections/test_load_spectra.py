@@ -89,7 +89,7 @@ def test_the_page_shows_them_where_they_are(listed_page):
 def test_exceedance_is_drawn_of_edges_and_of_the_largest_range(listed):
     """Mission first, its events, what was measured last; the line ends at the largest range."""
     spectrum = pd.read_parquet(listed / "spectrum.parquet")
-    fig = figures.spectrum_exceedance(spectrum)
+    fig = figures.spectrum_exceedance(spectrum).plotly()
     assert [trace.name for trace in fig.data] == ["mission", "tangent", "curve", "measured"]
     mission = fig.data[0]
     x, y = values(mission.x), values(mission.y)
@@ -102,7 +102,7 @@ def test_exceedance_is_drawn_of_edges_and_of_the_largest_range(listed):
 def test_matrices_hold_all_cycles(listed):
     """Both matrices of the mission, empty classes white."""
     frames = [pd.read_parquet(listed / f"{name}.parquet") for name in ("range_mean", "from_to")]
-    fig = figures.class_matrices(*(frame[frame["event"] == "(mission)"] for frame in frames))
+    fig = figures.class_matrices(*(frame[frame["event"] == "(mission)"] for frame in frames)).plotly()
     for trace in fig.data:
         z = np.asarray(trace.z, dtype=float)
         assert np.nansum(10.0**z) == pytest.approx(1e6 * 1111.5, rel=1e-3)
@@ -111,7 +111,7 @@ def test_matrices_hold_all_cycles(listed):
 
 def test_crossings_are_drawn_where_there_are_any(listed):
     """A level that nothing crosses is none on a logarithmic axis."""
-    fig = figures.crossings_by_level(pd.read_parquet(listed / "level_crossings.parquet"), ["tangent", "curve"])
+    fig = figures.crossings_by_level(pd.read_parquet(listed / "level_crossings.parquet"), ["tangent", "curve"]).plotly()
     assert [trace.name for trace in fig.data] == ["mission", "tangent", "curve"]
     assert all((values(trace.x) > 0.0).all() for trace in fig.data)
     assert fig.data[1].line.color == figures.event_colours(["tangent", "curve"])["tangent"]
@@ -128,6 +128,6 @@ def test_spectra_of_a_point_at_rest_are_drawn(listed):
     spectrum = pd.read_parquet(listed / "spectrum.parquet").assign(
         count_per_km=0.0, exceedance_per_1e6_km=0.0, max_MPa=np.nan
     )
-    assert not figures.spectrum_exceedance(spectrum).data
+    assert not figures.spectrum_exceedance(spectrum).plotly().data
     crossings = pd.read_parquet(listed / "level_crossings.parquet").assign(up_crossings_per_km=0.0)
-    assert not figures.crossings_by_level(crossings).data
+    assert not figures.crossings_by_level(crossings).plotly().data

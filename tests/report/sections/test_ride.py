@@ -307,7 +307,7 @@ def test_warnings_and_files_of_the_channels_are_shown(ridden_page):
     assert "short channel : <u>bogie</u> : it covers 90 % of the event" in ridden_page.words
     head, *rows = ridden_page.tables["ride-channels"]
     assert len(rows) == 6
-    assert rows[0][head.index("rate [Hz]")] == "200.0"
+    assert rows[0][head.index("rate [Hz]")] == "200"
     assert rows[0][-1] == 64 * "a"
 
 
@@ -428,7 +428,7 @@ def test_a_long_track_is_thinned_and_keeps_what_is_clear():
     stretches = pd.DataFrame(
         {"start_km": 0.1 * edges[:-1], "end_km": 0.1 * edges[1:], "start_s": edges[:-1], "end_s": edges[1:]}
     ).assign(frequency_hz=8.0, hot=np.arange(20_000) % 2 == 0)
-    fig = figures.hunting_along_event(stretches, track)
+    fig = figures.hunting_along_event(stretches, track).plotly()
     [hot] = [trace for trace in fig.data if trace.name == "hot stretch"]
     assert len(hot.x) == MOST_SLICES
     assert len(fig.layout.shapes) < 10
@@ -445,7 +445,7 @@ def test_names_of_modes_keep_clear_of_the_track():
     modes = pd.DataFrame({"equipment": ["fan", "pump", "converter"], "frequency_hz": [8.0, 8.05, 14.0]})
 
     def placed(frequency):
-        fig = figures.hunting_along_event(stretches, track.assign(frequency_hz=frequency), modes)
+        fig = figures.hunting_along_event(stretches, track.assign(frequency_hz=frequency), modes).plotly()
         shared, alone = fig.layout.annotations
         assert (shared.text, alone.text) == ("fan 8 Hz, pump 8.05 Hz", "converter 14 Hz")
         assert (alone.xanchor, alone.yanchor) == ("right", "bottom")

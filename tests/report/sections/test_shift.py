@@ -28,7 +28,7 @@ def study(dampings=(0.015,), frequencies=(9.0, 10.0, 12.0)):
 
 def test_lives_are_drawn_against_frequency():
     """A curve for each weld and damping, of the worst points; the setting as assessed is marked."""
-    fig = figures.life_against_setting(study(dampings=(0.01, 0.015)), ["A", "B"], 2e6)
+    fig = figures.life_against_setting(study(dampings=(0.01, 0.015)), ["A", "B"], 2e6).plotly()
     assert [trace.name for trace in fig.data] == ["A", "A, 1 %", "B", "B, 1 %"]
     np.testing.assert_allclose(fig.data[0].y, [1.1e6, 1e6, 1.2e6])
     assert list(fig.data[0].marker.symbol) == ["circle", "circle-open", "circle"]
@@ -38,7 +38,7 @@ def test_lives_are_drawn_against_frequency():
 
 def test_damping_alone_is_the_axis():
     """Where no frequency moves, lives stand against damping."""
-    fig = figures.life_against_setting(study(dampings=(0.01, 0.015, 0.03), frequencies=(10.0,)), ["A"], 2e6)
+    fig = figures.life_against_setting(study(dampings=(0.01, 0.015, 0.03), frequencies=(10.0,)), ["A"], 2e6).plotly()
     np.testing.assert_allclose(fig.data[0].x, [0.01, 0.015, 0.03])
     assert "damping" in fig.layout.xaxis.title.text
 

@@ -132,7 +132,7 @@ def test_the_page_shows_who_makes_the_damage(diagnosed_page):
     assert figures["weld-1-damage-modes"]["layout"]["yaxis"]["ticktext"][-1] == "unit load tunnel"
     assert diagnosed_page.tables["weld-1-levers"][0][0] == "mode or unit load"
     assert [row[0] for row in diagnosed_page.tables["weld-1-levers"][1:]] == ["1", "tunnel"]
-    assert "load −3.600 %" in diagnosed_page.words
+    assert "load −3.60 %" in diagnosed_page.words
 
 
 def test_the_variance_gives_way_to_the_damage(diagnosed_page, page):
@@ -160,7 +160,7 @@ def test_events_without_bands_stay_out_of_the_picture():
     )
     bands = band_shares(Why(**dict.fromkeys(Why.__dataclass_fields__, attribution)))
     assert bands["share"].tolist() == pytest.approx([0.2, 0.5, 0.2])
-    assert len(figures.damage_by_band(bands).data[0].x) == 3
+    assert len(figures.damage_by_band(bands).plotly().data[0].x) == 3
 
 
 def test_a_diagnosis_of_an_older_version_has_no_unit_loads(diagnosed, tmp_path):

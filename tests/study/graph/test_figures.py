@@ -35,7 +35,7 @@ def traces(figure, **wanted):
 
 def test_the_map_marks_every_crossing_and_names_what_hunts(found):
     """Crossings of all lines are circles, the run is a star, each unstable region has a name with its frequencies."""
-    figure = stability_figure(found)
+    figure = stability_figure(found).plotly()
     points = traces(figure, type="scatter")
     circles = [x for trace in points if trace.marker.size == 7 for x in trace.x]
     assert len(circles) == sum(len(line.crossings) for line in found.lines) > 2
@@ -54,7 +54,7 @@ def test_the_map_marks_every_crossing_and_names_what_hunts(found):
 def test_red_bands_are_what_is_not_stable(found):
     """Bands and stable ranges together cover the line, once."""
     line = found.over_conicity[0]
-    figure = along_figure(line, 0.1, palette(found.lines))
+    figure = along_figure(line, 0.1, palette(found.lines)).plotly()
     bands = [(shape.x0, shape.x1) for shape in figure.layout.shapes if shape.type == "rect"]
     pieces = sorted([*bands, *line.stable])
     assert pieces[0][0] == line.ends[0]
@@ -68,7 +68,7 @@ def test_coloured_are_the_roots_that_the_line_moves(found):
     names = {locus.name for locus in moved(line)}
     assert any("hunting" in name for name in names)
     assert not any(word in name for name in names for word in ("pitch", "bounce", "converter", "transformer"))
-    figure = plane_figure((line,), palette(found.lines))
+    figure = plane_figure((line,), palette(found.lines)).plotly()
     (grey,) = traces(figure, name="roots that it leaves alone")
     drawn = np.isfinite(np.array(grey.x, dtype=float)).sum()
     coloured = sum(np.isfinite(np.array(t.x, dtype=float)).sum() for t in figure.data if t is not grey)
@@ -82,7 +82,7 @@ def test_energy_of_a_root_that_crosses_is_whole(found):
     assert {crossing.root.of.name for crossing in line.crossings} & {
         root.of.name for locus in loci for root in locus.roots if root is not None
     }
-    figure = energy_figure(line, loci)
+    figure = energy_figure(line, loci).plotly()
     for row in range(len(loci)):
         of = [t.y for t in figure.data if t.yaxis == f"y{'' if row == 0 else row + 1}"]
         assert np.nansum(of, axis=0) == pytest.approx(1.0, abs=1e-6)
@@ -90,7 +90,7 @@ def test_energy_of_a_root_that_crosses_is_whole(found):
 
 def test_several_vehicles_are_one_figure_of_boundaries(found):
     """Each has its name in the legend, once."""
-    figure = boundaries_figure([found, found])
+    figure = boundaries_figure([found, found]).plotly()
     assert [t.name for t in figure.data if t.showlegend] == ["hard", "hard"]
 
 

@@ -31,7 +31,7 @@ def of(tmp_path_factory):
 
 def coloured(maps):
     """Marks of the weld lines in both views of each map."""
-    return [trace.marker for one in maps for trace in one.drawn.data if trace.marker.cmin is not None]
+    return [trace.marker for one in maps for trace in one.drawn.plotly().data if trace.marker.cmin is not None]
 
 
 def test_maps_of_two_variants_have_one_colour_scale_that_begins_at_the_shortest_life(of):

@@ -4,13 +4,13 @@ from collections.abc import Sequence
 from html import escape
 
 import numpy as np
-import plotly.graph_objects as go
 from numpy.typing import NDArray
 
 from fatigue.gauges.correlated.compared import Comparison
 from fatigue.gauges.correlated.flag_rows import SpikeShown
 from fatigue.gauges.instrument import MICROSTRAIN
-from fatigue.report.figures.style import MISSED, QUIET, SERIES, Trace, axis, figure, log_axis, single
+from fatigue.report.figures.drawn import Figure, Trace
+from fatigue.report.figures.style import MISSED, QUIET, SERIES, axis, figure, log_axis, single
 from fatigue.shown import shortened, visible
 
 Floats = NDArray[np.float64]
@@ -20,7 +20,7 @@ DASH = {"measured": "solid", "simulated": "dash"}
 MOST_DECADES = 6.0  # of density and exceedance
 
 
-def histories(one: Comparison) -> go.Figure | None:
+def histories(one: Comparison) -> Figure | None:
     """Strain of both sides around the largest cycles; None without any.
 
     Aligned sides lie on each other. Others are two places of two records: one above the other, on one scale.
@@ -41,7 +41,7 @@ def histories(one: Comparison) -> go.Figure | None:
     return figure(data, height=420, xaxis=title, **layout)
 
 
-def densities(one: Comparison) -> go.Figure:
+def densities(one: Comparison) -> Figure:
     """Power spectral density of both sides."""
     drawn = one.drawn
     both = (("measured", drawn.measured_density), ("simulated", drawn.simulated_density))
@@ -56,7 +56,7 @@ def densities(one: Comparison) -> go.Figure:
     )
 
 
-def exceedances(one: Comparison) -> go.Figure:
+def exceedances(one: Comparison) -> Figure:
     """Ranges over how often they are reached in a km, both sides."""
     drawn = one.drawn
     both = (("measured", drawn.measured_reached), ("simulated", drawn.simulated_reached))
@@ -71,7 +71,7 @@ def exceedances(one: Comparison) -> go.Figure:
     )
 
 
-def spike_samples(spikes: Sequence[SpikeShown]) -> go.Figure | None:
+def spike_samples(spikes: Sequence[SpikeShown]) -> Figure | None:
     """Raw samples around the largest spikes, one panel each; None without any."""
     if not spikes:
         return None

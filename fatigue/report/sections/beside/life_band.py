@@ -6,9 +6,10 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from fatigue import digits
 from fatigue.report.result import ShownResult
 from fatigue.report.sections.cells import Cell, Heading, PageTable, life, linked, num
-from fatigue.report.wording import NOT_AVAILABLE, life_in_band, life_km, number, share
+from fatigue.report.wording import NOT_AVAILABLE, life_in_band, life_km, share
 from fatigue.results.beside.life_band import (
     AT_LEAST,
     LIVES,
@@ -95,27 +96,29 @@ def _band_words(found: BandOfPoint) -> str:
 def _table(
     welds: pd.DataFrame, found: list[BandOfPoint | None], links: Mapping[str, str], *, with_lines: bool
 ) -> PageTable:
+    in_millions = digits.in_millions(end for one in found if one is not None for end in (one.low_km, one.high_km))
+    scale = digits.MILLION if in_millions else 1.0
     rows = tuple(
-        (linked(str(weld), links), life(assessed), *_cells(one, with_lines=with_lines))
+        (linked(str(weld), links), life(assessed), *_cells(one, scale, with_lines=with_lines))
         for weld, assessed, one in zip(welds["weld"], welds["life_km"], found, strict=True)
     )
     headings = (
         Heading("weld", numeric=False),
         Heading("life", "km"),
-        Heading("90 % band of load", "km", numeric=False),
+        Heading("90 % band of load", "million km" if in_millions else "km", numeric=False),
         *(Heading(f"{percent} reach", "km") for percent in SURVIVALS.values()),
         *((Heading("line survives to the target", "-"), Heading("half of all lines", "km")) if with_lines else ()),
     )
     return PageTable("life-bands", headings, rows)
 
 
-def _cells(found: BandOfPoint | None, *, with_lines: bool) -> tuple[Cell, ...]:
+def _cells(found: BandOfPoint | None, scale: float, *, with_lines: bool) -> tuple[Cell, ...]:
     if found is None:
         return (Cell(NOT_AVAILABLE),) * (1 + len(LIVES) + 2 * with_lines)
     said = SHORT_REASONS.get(found.reason, "")
     band = said
     if found.has_band:
-        ends = f"{number(found.low_km, 3)} – {number(found.high_km, 3)}"
+        ends = " – ".join(digits.results([found.low_km / scale, found.high_km / scale]))
         band = f"{said} {ends}".strip()
     of_line = (num(found.line_survival), life(found.line_life_km)) if with_lines else ()
     return (Cell(band), *(life(found.lives_km[name]) for name in LIVES), *of_line)

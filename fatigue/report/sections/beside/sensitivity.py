@@ -5,9 +5,10 @@ from typing import Any
 
 import pandas as pd
 
+from fatigue.report import wording
 from fatigue.report.result import ShownResult
 from fatigue.report.sections.cells import Cell, Heading, PageTable, linked, num
-from fatigue.report.wording import listed, number, whole
+from fatigue.report.wording import listed, whole
 from fatigue.results.beside.sensitivity import Sensitivity, in_words, read_sensitivity
 from fatigue.results.dictionary.sensitivity import BOUND, COUNTED, RECOUNT, VARIANTS
 
@@ -68,13 +69,13 @@ def _table(found: Sensitivity, welds: list[str], links: Mapping[str, str]) -> Pa
 
 def _verdict(utilisation: float) -> Cell:
     """Cell of the utilisation as it was assessed: the verdict in a sign and not in colour alone."""
-    is_met = utilisation <= 1.0
-    return Cell(f"{'✓' if is_met else '✕'} {number(utilisation)}", num(utilisation).value, mark="met" if is_met else "")
+    is_met, words = utilisation <= 1.0, wording.result(utilisation)
+    return Cell(f"{'✓' if is_met else '✕'} {words}", num(utilisation).value, mark="met" if is_met else "")
 
 
 def _cell(row: "pd.Series[Any]") -> Cell:
     """Cell of a utilisation under a variant; the one that changes the verdict is marked."""
-    words = in_words(row["utilisation"], row["basis"], row["fulfilled"], number)
+    words = in_words(row["utilisation"], row["basis"], row["fulfilled"], wording.result)
     if not row["flips"]:
         return Cell(words, num(row["utilisation"]).value)
     sign = "✓" if row["fulfilled"] else "✕"

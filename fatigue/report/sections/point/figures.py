@@ -4,10 +4,10 @@ from collections.abc import Sequence
 
 import numpy as np
 import pandas as pd
-import plotly.graph_objects as go
 from numpy.typing import NDArray
 
 from fatigue.report import figures, wording
+from fatigue.report.figures.drawn import Figure
 from fatigue.report.of_record import Record, coordinates_of, events_of, mode_names, target_of, weights_of
 from fatigue.report.sections.embed import Figures, Shown
 from fatigue.report.sections.point.detail import Detail
@@ -40,7 +40,7 @@ def cycle_figures(record: Record, name: str, cycles: pd.DataFrame, used: Assumpt
     ]
 
 
-def draw_sn(record: Record, cycles: pd.DataFrame, used: Assumptions) -> go.Figure:
+def draw_sn(record: Record, cycles: pd.DataFrame, used: Assumptions) -> Figure:
     """The S-N curve of a point and the spectrum of its cycles up to the target."""
     per_target = how_often(cycles, weights_of(record)) * target_of(record)
     unit = "MPa mm<sup>−0.222</sup>" if used.curve.applies == "dS" else "MPa"
@@ -68,7 +68,7 @@ def history_figure(record: Record, detail: Detail, event: str, figs: Figures) ->
     return [figs.add("history", history, caption, wide=True, of_curve=False)]
 
 
-def draw_history(record: Record, envelope: Envelope, excerpts: Sequence[Sequence[Excerpt]]) -> go.Figure:
+def draw_history(record: Record, envelope: Envelope, excerpts: Sequence[Sequence[Excerpt]]) -> Figure:
     """Stress over a record, and close by at the first of some cycles."""
     names, _ = mode_names(record)
     first = excerpts[0] if excerpts else ()
@@ -98,7 +98,7 @@ def spectrum_figure(record: Record, detail: Detail, event: str, figs: Figures) -
 
 def draw_spectrum(
     record: Record, spectra: Sequence[StressSpectrum], variance_share: NDArray[np.float64], event: str
-) -> go.Figure:
+) -> Figure:
     """Spectra of the stress, that of an event first, with the normal modes marked that lead in its variance there."""
     _, natural = mode_names(record)
     parts = _leading(record, variance_share)

@@ -3,9 +3,9 @@
 from collections.abc import Iterator, Mapping
 
 import numpy as np
-import plotly.graph_objects as go
 
-from fatigue.report.figures.style import INK, QUIET, Trace, axis, figure, single
+from fatigue.report.figures.drawn import Figure, Trace
+from fatigue.report.figures.style import INK, QUIET, axis, figure, single
 from fatigue.study.graph.figures.colours import UPTO_HZ, moved
 from fatigue.study.graph.figures.plane import UNSTABLE
 from fatigue.study.graph.line import Line
@@ -15,7 +15,7 @@ DAMPING = (-10.0, 40.0)  # % shown
 TICKS = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0)
 
 
-def along_figure(line: Line, own: float, colours: Mapping[str, str]) -> go.Figure:
+def along_figure(line: Line, own: float, colours: Mapping[str, str]) -> Figure:
     """Damping above, frequency below; red where the vehicle is unstable, dotted at its ``own`` value."""
     data: list[Trace] = []
     for locus in moved(line):

@@ -3,9 +3,9 @@
 from collections.abc import Sequence
 
 import numpy as np
-import plotly.graph_objects as go
 
-from fatigue.report.figures.style import INK, Trace, axis, figure, single
+from fatigue.report.figures.drawn import Figure, Trace
+from fatigue.report.figures.style import INK, axis, figure, single
 from fatigue.study.graph.figures.along import TICKS
 from fatigue.study.graph.figures.colours import OF_GROUP, WORDS
 from fatigue.study.graph.line import Line
@@ -25,7 +25,7 @@ def that_cross(line: Line) -> list[Locus]:
     return [locus for _, locus in sorted(found, key=lambda one: one[0])][:MOST]
 
 
-def energy_figure(line: Line, loci: Sequence[Locus]) -> go.Figure:
+def energy_figure(line: Line, loci: Sequence[Locus]) -> Figure:
     """Shares of the kinetic energy of some loci, one panel above the other; upright lines where stability changes."""
     data: list[Trace] = []
     layout: dict[str, object] = {}

@@ -3,11 +3,11 @@
 from collections.abc import Iterator, Sequence
 
 import numpy as np
-import plotly.graph_objects as go
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from fatigue.report.figures.style import INK, PAPER, SERIES, Trace, axis, colour_bar, figure, single
+from fatigue.report.figures.drawn import Figure, Trace
+from fatigue.report.figures.style import INK, PAPER, SERIES, axis, colour_bar, figure, single
 from fatigue.report.wording import in_figure
 from fatigue.study.graph.stability import StabilityMap
 from fatigue.study.graph.vehicle_graph import VehicleGraph
@@ -24,7 +24,7 @@ DECADES = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0)
 NAMED_FROM = 0.015  # of the map: smaller unstable regions get no name
 
 
-def stability_figure(of: VehicleGraph) -> go.Figure:
+def stability_figure(of: VehicleGraph) -> Figure:
     """Map of one vehicle: least damping as colour, the boundary, what hunts where, frequencies at the crossings."""
     its = of.map
     percent = np.clip(100.0 * its.damping, -MOST, MOST)
@@ -62,7 +62,7 @@ def stability_figure(of: VehicleGraph) -> go.Figure:
     )
 
 
-def boundaries_figure(graphs: Sequence[VehicleGraph]) -> go.Figure:
+def boundaries_figure(graphs: Sequence[VehicleGraph]) -> Figure:
     """Boundaries of some vehicles in one map, and what the contact and the run of each are."""
     colours = dict(zip((g.name for g in graphs), SERIES * len(graphs), strict=False))
     data, crossed = [], []

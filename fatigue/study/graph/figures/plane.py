@@ -3,9 +3,9 @@
 from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
-import plotly.graph_objects as go
 
-from fatigue.report.figures.style import GRID, INK, PAPER, QUIET, Trace, axis, figure, single
+from fatigue.report.figures.drawn import Figure, Trace
+from fatigue.report.figures.style import GRID, INK, PAPER, QUIET, axis, figure, single
 from fatigue.study.graph.figures.colours import UPTO_HZ, moved
 from fatigue.study.graph.line import Line
 from fatigue.vehicle.stability.loci import Locus
@@ -16,7 +16,7 @@ UNSTABLE = "#f6d5d0"
 TOLD_CONICITIES, TOLD_SPEEDS = (0.03, 0.1, 0.3, 1.0), (100.0, 200.0, 350.0, 600.0)
 
 
-def plane_figure(lines: Sequence[Line], colours: Mapping[str, str]) -> go.Figure:
+def plane_figure(lines: Sequence[Line], colours: Mapping[str, str]) -> Figure:
     """Loci of the first line; the others are chosen above the figure.
 
     Curves with colour are roots that the line moves, grey ones those it leaves alone. Points grow along the line.
