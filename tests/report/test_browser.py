@@ -231,7 +231,7 @@ def test_the_page_prints_on_numbered_pages(chromium, report, tmp_path):
     assert 5 <= len(pages) <= 12
     numbers = [int(n) for n in re.findall(r"Figure (\d+)", text)]
     assert numbers == list(range(1, len(numbers) + 1))
-    assert all(re.search(rf"\b{i} ?/ ?{len(pages)}\b", page) for i, page in enumerate(pages, start=1))
+    assert all(re.search(rf"\b{i} ?(?:/|of) ?{len(pages)}\b", page) for i, page in enumerate(pages, start=1))
     assert "Target not fulfilled" in pages[0]
     assert "Prepared" in pages[0]
     assert "<script>alert(1)</script>" in text
@@ -249,7 +249,10 @@ def test_every_point_is_found(opened):
         opened.fill("#find-points", words)
         opened.fill("#from-utilisation", least)
         opened.set_checked("#only-worst", only)
-        opened.evaluate("document.getElementById('points-shown').textContent = ''")
+        opened.evaluate(
+            "document.getElementById('points-shown').textContent = '';"
+            "document.querySelector('#all-points form').dispatchEvent(new Event('input'))"
+        )
         opened.wait_for_function(f"{shown} !== ''")
         return opened.evaluate(shown)
 
