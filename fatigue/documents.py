@@ -12,13 +12,16 @@ from pathlib import Path
 from typing import Any
 
 from fatigue.errors import DataError, Problem, refuse
+from fatigue.report.files.body import write_body
 from fatigue.report.files.browser import find_browser
-from fatigue.report.files.export import refuse_without_xlsxwriter, write_csv, write_xlsx
+from fatigue.report.files.export import write_csv
 from fatigue.report.files.pdf import print_pdf
 from fatigue.report.files.vtp import write_vtp
+from fatigue.report.files.workbook.book import refuse_without_xlsxwriter, write_xlsx
 from fatigue.report.identity.identity import found_identity, issued
 from fatigue.report.page import write_report
 from fatigue.results import (
+    BODY,
     CSV_TABLES,
     DOCUMENTS,
     PAGE,
@@ -66,6 +69,7 @@ def write_documents(
     verification: Callable[[], Sequence[Mapping[str, Any]]] = tuple,
     force: bool = False,
     no_lock: bool = False,
+    bom: bool = False,
 ) -> Documents:
     """Write documents of a finished result, all that can be written; in one step they replace the ones there.
 
@@ -79,6 +83,7 @@ def write_documents(
     verification : computes the checks of the program that the page shows
     force : replace documents that are there already, also those that fatigue did not write
     no_lock : for a file system without locks, see ``fatigue.assess``
+    bom : begin CSV files with a byte order mark, for Excel
 
     Raises
     ------
@@ -101,8 +106,9 @@ def write_documents(
         writers: dict[str, Callable[[], object]] = {
             PAGE: lambda: write_report(folder, case_file, checks, staging),
             PICTURE: lambda: write_vtp(folder, staging),
+            BODY: lambda: write_body(folder, case_file, staging),
             WORKBOOK: lambda: write_xlsx(folder, staging),
-            CSV[0]: lambda: write_csv(folder, staging),
+            CSV[0]: lambda: write_csv(folder, staging, bom=bom),
             PRINT: lambda: _print(folder, staging, record.get("result", "")),
         }
         for name in (name for name in writers if name in wanted and name not in missing):

@@ -33,6 +33,8 @@ from fatigue.report.sections.evidence.section import SIGNS, WORDS, evidence
 from fatigue.report.sections.evidence.warnings import grouped
 from fatigue.report.sections.formation.section import formation_section
 from fatigue.report.sections.load_spectra import read_load_spectra, spectra_warnings, spectra_words
+from fatigue.report.sections.places.paper import all_passed, on_paper
+from fatigue.report.sections.places.section import places
 from fatigue.report.sections.point.detail import Detail
 from fatigue.report.sections.ride.read import read_ride
 from fatigue.report.sections.ride.section import ride_section, ride_warnings
@@ -48,7 +50,6 @@ log = logging.getLogger(__name__)
 MOST_DETAILED = 40  # welds with their own figures; the others have their rows and their lines
 MOST_STATIONS = 100_000  # on the lines that are drawn; beyond, only lines of the worst welds are
 MOST_LISTED = 2000  # welds in the register of the page
-WORST_POINTS = 50
 
 
 def write_report(
@@ -96,7 +97,7 @@ def report_page(
     """Return the page as text; see ``write_report``. ``identity`` is by default the one that is found by the case."""
     folder = given_path(folder, "folder")
     case_path = None if case_path is None else given_path(case_path, "case_path")
-    result = read_result(folder, MOST_DETAILED, MOST_STATIONS, WORST_POINTS)
+    result = read_result(folder, MOST_DETAILED, MOST_STATIONS)
     record = result.record
     identity = found_identity(record, folder, case_path) if identity is None else identity
     inputs = find_inputs(record, folder, case_path)
@@ -111,6 +112,8 @@ def report_page(
         log.warning("the report may be outdated: %s", problem)
     links = {weld: f"weld-{i}" for i, weld in enumerate(result.detailed, start=1)}
     unverified, bands = of_toes(result), bands_of(result)
+    paper = on_paper(result, unverified)
+    lines = body_sections.drawn_lines(result)
     figs = Figures(mark=figure_mark(unverified, len(result.assessed)))
     recounted = recomputed(result)
     context = {
@@ -130,28 +133,27 @@ def report_page(
         "worst_welds": marked(tables.weld_table(result.assessed, links), unverified),
         **life_band_section(result, bands, links),
         **sensitivity(result, links),
-        "worst_ten": marked(tables.point_table(result.worst_points, links, 10, "worst-ten"), unverified),
+        "places": places(result, lines, links, unverified),
         # figures are numbered in the order of these lines, the order of the page
         "weld_lives": body_sections.lives(result, figs),
-        **body_sections.where(result, body, links, figs),
+        **body_sections.where(result, lines, body, figs),
         **body_sections.causes(result, why, figs),
         **transitions(result, links),
         **formation_section(why, result, links),
         **ride_section(ridden, links, figs),
         **shift_study(folder, result, figs),
         "pages": [
-            weld_page(result, weld, details.get(weld), why, spectra, checks, bands, figs, links[weld])
+            weld_page(result, weld, details.get(weld), why, spectra, checks, bands, figs, links[weld], paper.welds)
             for weld in result.detailed
         ],
         **shear(result, links),
         **beside(result, checks, links),
         "spectra_words": spectra_words(spectra),
         **body_sections.domains(result, figs),
+        "assessed": len(result.assessed),
+        "paper": paper,
         "undetailed": len(result.assessed) - len(result.detailed),
         "undrawn": len(result.assessed) - len(result.drawn),
-        "worst_points": marked(
-            tables.point_table(result.worst_points, links, WORST_POINTS, "worst-points", "Find a point"), unverified
-        ),
         "register": marked(tables.register_table(_listed(result), links), unverified),
         "unlisted": max(0, len(result.assessed) - MOST_LISTED),
         "events": tables.event_table(result.events, record["rules"]["residue"], steps),
@@ -164,6 +166,7 @@ def report_page(
         "evidence_signs": SIGNS,
         "evidence_words": WORDS,
         "verification": tables.verification_table(verification),
+        "verified": all_passed(verification),
         "inputs": tables.input_table(record["inputs"]),
         "audit": tables.audit_table(record.get("conversion")),
     }

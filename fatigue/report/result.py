@@ -24,7 +24,6 @@ from fatigue.results import (
     refuse_mixed,
     row_count,
     rows_of_welds,
-    worst_toes,
 )
 
 POINT = ("weld", "part", "order", "surface")
@@ -45,7 +44,6 @@ class ShownResult:
     assessed : the register without these
     drawn : the welds, worst first, whose lines are drawn
     nodes : all points of the drawn welds
-    worst_points : the worst toe points of all welds, worst first
     toes : number of toe points of all welds
     domains : both domains at the points of all welds
     detailed : the welds, worst first, whose worst point is shown in detail
@@ -61,7 +59,6 @@ class ShownResult:
     assessed: pd.DataFrame
     drawn: tuple[str, ...]
     nodes: pd.DataFrame
-    worst_points: pd.DataFrame
     toes: int
     domains: Domains
     detailed: tuple[str, ...]
@@ -116,14 +113,13 @@ class ShownResult:
         return found
 
 
-def read_result(folder: Path, most_detailed: int, most_stations: int, worst_points: int) -> ShownResult:
+def read_result(folder: Path, most_detailed: int, most_stations: int) -> ShownResult:
     """Read a result folder.
 
     Parameters
     ----------
     most_detailed : welds whose worst point is shown in detail
     most_stations : on the lines that are drawn; beyond, the lines of the worst welds are
-    worst_points : toe points that are listed
 
     Raises
     ------
@@ -133,7 +129,6 @@ def read_result(folder: Path, most_detailed: int, most_stations: int, worst_poin
     refuse_mixed(folder, record)
     domains = read_domains(folder, list(weights_of(record)))
     toes = int(np.count_nonzero(read_table(folder, "nodes", ["toe"])["toe"].to_numpy()))
-    worst = read_rows(folder, "nodes", worst_toes(folder, worst_points)).to_pandas()
     welds = read_welds(folder)
     rows = assessed(welds)
     detailed = tuple(rows["weld"].head(most_detailed))
@@ -149,7 +144,6 @@ def read_result(folder: Path, most_detailed: int, most_stations: int, worst_poin
         assessed=rows,
         drawn=drawn,
         nodes=nodes,
-        worst_points=worst,
         toes=toes,
         domains=domains,
         detailed=detailed,

@@ -9,6 +9,7 @@ documents beside it. ``folder`` guards what is in the folder, ``lock`` lets one 
 
 from fatigue.results.adding import Addition, adding, enlist, finished_result, relist
 from fatigue.results.belonging import (
+    BODY,
     CSV_TABLES,
     DOCUMENTS,
     LIST,
@@ -85,6 +86,7 @@ __all__ = [
     "ASSESSED",
     "ATTRIBUTION",
     "BENCHED",
+    "BODY",
     "CSV_TABLES",
     "CYCLES",
     "DAMAGE",

@@ -30,6 +30,7 @@ from fatigue.results.outputs import altered
 from fatigue.results.provenance import hashes_on_record
 
 PICTURE = "weld_lines.vtp"
+BODY = "body.vtp"
 PAGE = "report.html"
 PRINT = "report.pdf"
 WORKBOOK = "nodes.xlsx"
@@ -49,7 +50,7 @@ CSV_TABLES = (
     *RIDDEN,
     *SHIFTED,
 )
-DOCUMENTS: tuple[str, ...] = (PICTURE, PAGE, PRINT, WORKBOOK, RECOUNT, *(f"{table}.csv" for table in CSV_TABLES))
+DOCUMENTS: tuple[str, ...] = (PICTURE, BODY, PAGE, PRINT, WORKBOOK, RECOUNT, *(f"{table}.csv" for table in CSV_TABLES))
 LIST = "exports.json"
 MARK = "fatigue-result"  # before the hash in documents that are text; the name of a property in the workbook
 _MARKED = re.compile(rb"fatigue-result.{1,60}?\b([0-9a-f]{32})\b", re.DOTALL)

@@ -2,23 +2,26 @@
 
 import base64
 import json
+import zlib
 from dataclasses import dataclass, field
 from html.parser import HTMLParser
 
 import numpy as np
+import pytest
 
 _SILENT = {"script", "style"}
 
 
 @dataclass
 class Page(HTMLParser):
-    """A parsed page: visible text by element, tables as rows of cell texts, figures by id."""
+    """A parsed page: visible text by element, tables as rows of cell texts, figures by id, all points."""
 
     html: str
     text: list[str] = field(default_factory=list)
     tables: dict[str, list[list[str]]] = field(default_factory=dict)
     figures: dict[str, dict] = field(default_factory=dict)
     tags: list[tuple[str, dict]] = field(default_factory=list)
+    points: dict = field(default_factory=dict)
 
     def __post_init__(self):
         """Read the page."""
@@ -35,6 +38,8 @@ class Page(HTMLParser):
             self._silent += 1
             if given.get("id", "").startswith("json-"):
                 self._json = given["id"].removeprefix("json-")
+            if given.get("id") == "points-data":
+                self._json = "points-data"
         if tag == "table":
             self._table = self.tables.setdefault(given.get("id", f"table {len(self.tables)}"), [])
         if tag == "tr" and self._table is not None:
@@ -55,7 +60,9 @@ class Page(HTMLParser):
 
     def handle_data(self, data):
         """Keep text where it belongs."""
-        if self._json is not None:
+        if self._json == "points-data":
+            self.points = json.loads(data)
+        elif self._json is not None:
             self.figures[self._json] = json.loads(data)
         if self._silent:
             return
@@ -76,3 +83,21 @@ def values(array):
             [int(n) for n in array.get("shape", "-1").split(",")]
         )
     return np.asarray(array)
+
+
+def inflated(packed):
+    """Columns of ``deflated`` as the script of the page reads them: first bytes of all values, then second ones."""
+    content, start, columns = zlib.decompress(base64.b64decode(packed["deflate"])), 0, {}
+    for name, code, rows in packed["heads"]:
+        size = np.dtype(code).itemsize
+        planes = np.frombuffer(content, np.uint8, rows * size, start).reshape(size, rows)
+        columns[name] = np.ascontiguousarray(planes.T).view(f"<{code}").reshape(rows)
+        start += rows * size
+    return columns
+
+
+def cells_of(path, name):
+    """Cells of a sheet of a workbook by their address, the empty ones left out; skips where openpyxl is missing."""
+    openpyxl = pytest.importorskip("openpyxl")
+    rows = openpyxl.load_workbook(path)[name].iter_rows()
+    return {cell.coordinate: cell.value for row in rows for cell in row if cell.value is not None}

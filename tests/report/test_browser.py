@@ -184,18 +184,26 @@ def test_everything_is_reached_by_keyboard_and_has_a_label(opened):
 
 
 def test_text_has_contrast(opened):
-    """Ink, quiet text, accent and alarm keep a contrast of 4.5 against paper (WCAG 2.1 AA)."""
-    colours = opened.evaluate(
-        "['--ink', '--quiet', '--accent', '--missed'].map((name) => "
-        "getComputedStyle(document.documentElement).getPropertyValue(name).trim())"
-    )
+    """Ink, quiet text, accent, alarm and doubt keep a contrast of 4.5 against light and dark pages (WCAG 2.1 AA)."""
+    seen = "--page --wash --ink --quiet --accent --missed --doubt"
 
     def luminance(colour):
         parts = [int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5)]
         linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in parts]
         return sum(w * c for w, c in zip((0.2126, 0.7152, 0.0722), linear, strict=True))
 
-    assert all(1.05 / (luminance(colour) + 0.05) >= 4.5 for colour in colours)
+    for scheme in ("dark", "light"):
+        opened.emulate_media(color_scheme=scheme)
+        page, wash, *colours = opened.evaluate(
+            f"'{seen}'.split(' ').map((name) => "
+            "getComputedStyle(document.documentElement).getPropertyValue(name).trim())"
+        )
+        assert (luminance(page) < 0.5) == (scheme == "dark")
+        for ground in (page, wash):
+            for colour in colours:
+                low, high = sorted((luminance(ground), luminance(colour)))
+                assert (high + 0.05) / (low + 0.05) >= 4.5, (scheme, ground, colour)
+    assert opened.evaluate("getComputedStyle(document.querySelector('.plot')).backgroundColor") != "rgb(18, 24, 29)"
 
 
 def test_nothing_is_wider_than_a_small_screen(browser, report):
@@ -220,9 +228,45 @@ def test_the_page_prints_on_numbered_pages(chromium, report, tmp_path):
         pytest.skip("needs pdftotext to read the pages")
     text = subprocess.run(["pdftotext", "-layout", str(pdf), "-"], capture_output=True, check=True).stdout.decode()
     pages = text.split("\f")[:-1]
-    assert len(pages) >= 8
+    assert 5 <= len(pages) <= 12
+    numbers = [int(n) for n in re.findall(r"Figure (\d+)", text)]
+    assert numbers == list(range(1, len(numbers) + 1))
     assert all(f"page {i} of {len(pages)}" in " ".join(page.split()) for i, page in enumerate(pages, start=1))
     assert "Target not fulfilled" in pages[0]
     assert "Prepared" in pages[0]
     assert "<script>alert(1)</script>" in text
     assert "arc length [mm]" in text
+
+
+def test_every_point_is_found(opened):
+    """Words, a node, a least utilisation and only the worst of hot spots; the rows link to their weld."""
+    opened.locator("#all-points").scroll_into_view_if_needed()
+    opened.wait_for_selector("#found-points tbody tr")
+    shown = "document.getElementById('points-shown').textContent"
+    assert opened.evaluate(shown) == "1 to 20 of 20 points"
+
+    def told(words, least="", only=False):
+        opened.fill("#find-points", words)
+        opened.fill("#from-utilisation", least)
+        opened.set_checked("#only-worst", only)
+        opened.evaluate(
+            "document.getElementById('points-shown').textContent = '';"
+            "document.querySelector('#all-points form').dispatchEvent(new Event('input'))"
+        )
+        opened.wait_for_function(f"{shown} !== ''")
+        return opened.evaluate(shown)
+
+    assert told("bracket bottom") == "1 to 5 of 5 points"
+    assert told("1003") == "1 to 2 of 2 points"
+    assert told("", only=True) == "1 to 4 of 4 points"
+    assert told("no such weld") == "no point like this"
+    assert told("", least="1e9") == "no point like this"
+    assert told("bracket") == "1 to 10 of 10 points"
+    first = opened.inner_text("#found-points tbody tr:first-child")
+    spot = opened.inner_text("#hot-spots tbody tr:first-child")
+    assert first.split("\t")[:3] == spot.split("\t")[:3]
+    assert [float(row.split("\t")[7]) for row in (first, spot)] == pytest.approx(
+        [float(first.split("\t")[7])] * 2, rel=5e-3
+    )
+    assert opened.get_attribute("#found-points tbody a", "href") == "#weld-1"
+    told("")

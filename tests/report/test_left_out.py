@@ -10,16 +10,16 @@ import pytest
 from fatigue.diagnose import diagnose
 from fatigue.errors import DataError
 from fatigue.report.files.browser import find_browser
-from fatigue.report.files.export import write_csv, write_xlsx
+from fatigue.report.files.export import write_csv
 from fatigue.report.files.pdf import print_pdf
 from fatigue.report.files.vtp import write_vtp
+from fatigue.report.files.workbook.book import write_xlsx
 from fatigue.report.page import report_page
 from fatigue.results import json_ready
 from fatigue.results.summary import result_summary
 from fatigue.verify.recount import recount
 from tests.report.converted import NAME, NOTHING_KNOWN, REASON, assessed
-from tests.report.files.test_export import sheet
-from tests.report.reading import Page
+from tests.report.reading import Page, cells_of
 
 CASES = {
     "excluded and candidate": ([{"weld": NAME}, {"status": "excluded", "reason": REASON}, {}, NOTHING_KNOWN], None),
@@ -84,7 +84,7 @@ def test_the_page_lists_them_with_their_reason(result):
     for row in left_out.itertuples():
         shown = [cell for name, cell in by_name[row.weld].items() if name not in ("weld", "description", "status")]
         assert by_name[row.weld]["status"] == ("" if row.reason == "candidate" else "excluded: ") + row.reason
-        assert set(shown[4:]) == {"–"}
+        assert {*shown[:5], *shown[8:]} == {"–"}
     nodes = {by_name[name]["nodes"] for name in assessed_rows.weld}
     assert nodes == {"7"}
     assert not any(tag == "script" and "alert" in str(given) for tag, given in page.tags)
@@ -96,12 +96,13 @@ def test_the_page_lists_them_with_their_reason(result):
 def test_workbook_and_csv_leave_their_numbers_empty(copy):
     """Whole numbers stay whole beside empty cells, flags that nobody knows are empty, reasons are texts."""
     pytest.importorskip("xlsxwriter")
-    _, cells = sheet(write_xlsx(copy), 2)
+    cells = cells_of(write_xlsx(copy), "welds")
     assessed_rows, left_out = welds_of(copy)
-    for number, row in enumerate([*assessed_rows.itertuples(), *left_out.itertuples()], start=2):
+    by_utilisation = assessed_rows.sort_values("utilisation", ascending=False, kind="stable")
+    for number, row in enumerate([*by_utilisation.itertuples(), *left_out.itertuples()], start=2):
         assert cells[f"A{number}"] == row.weld
-        assert cells.get(f"C{number}", "") == row.reason
-        assert (f"E{number}" in cells) == (f"O{number}" in cells) == (row.status == "assessed")
+        assert cells.get(f"H{number}", "") == row.reason
+        assert (f"C{number}" in cells) == (f"D{number}" in cells) == (row.status == "assessed")
     write_csv(copy)
     written = pd.read_csv(copy / "welds.csv", dtype=str, keep_default_na=False)
     assert written.worst_node.tolist() == [*(str(int(n)) for n in assessed_rows.worst_node), *[""] * len(left_out)]
@@ -117,7 +118,7 @@ def test_the_words_for_them(tmp_path):
     changes = [{"status": "excluded"}, {"status": "excluded", "reason": "candidates were ruled out"}, {}]
     result = assessed(tmp_path, changes)
     page = Page((result / "report.html").read_text(encoding="utf-8"))
-    statuses = {row[2] for row in page.tables["weld-register"][1:]}
+    statuses = {row[7] for row in page.tables["weld-register"][1:]}
     assert statuses == {"assessed", "excluded", "excluded: candidates were ruled out"}
     assert "2 welds are excluded" in " ".join(" ".join(page.text).split())
     folder = assessed(tmp_path, [{"status": "candidate", "reason": "two\nlines"}, {}, {}], name="another")

@@ -17,9 +17,9 @@ WELD = "W1 bracket"
 @pytest.fixture
 def both(result_folder, monkeypatch):
     """The same result with its cycles one by one, and merged."""
-    listed = read_result(result_folder, 2, 100, 50)
+    listed = read_result(result_folder, 2, 100)
     monkeypatch.setattr(reading, "MOST_ROWS", 0)
-    return listed, read_result(result_folder, 2, 100, 50)
+    return listed, read_result(result_folder, 2, 100)
 
 
 def test_counts_and_damages_stay(tmp_path, monkeypatch):

@@ -12,7 +12,7 @@ from fatigue.report.variants import Assumptions, assumptions_of, damage_per_km, 
 @pytest.fixture(scope="module")
 def worst(result_folder):
     """Worst point of a weld with its cycles, the passes of its events and the assumptions."""
-    result = read_result(result_folder, 2, 100, 50)
+    result = read_result(result_folder, 2, 100)
     return (
         result.worst("W1 bracket"),
         result.cycles("W1 bracket"),

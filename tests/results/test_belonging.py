@@ -8,8 +8,9 @@ import pyarrow.parquet as pq
 import pytest
 
 from fatigue.errors import DataError
-from fatigue.report.files.export import write_csv, write_xlsx
+from fatigue.report.files.export import write_csv
 from fatigue.report.files.vtp import write_vtp
+from fatigue.report.files.workbook.book import write_xlsx
 from fatigue.report.page import write_report
 from fatigue.results import is_derived, read_provenance, refuse_foreign, refuse_mixed, strangers, write_json
 from fatigue.results.belonging import carried, listed

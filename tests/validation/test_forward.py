@@ -167,7 +167,7 @@ def as_it_is(tmp_path_factory) -> tuple[SmallCase, pd.DataFrame, pd.DataFrame]:
     case = case_of(curve=YIELD | {"knee_cycles": 3e5}, dead_load=45.0)
     folder = tmp_path_factory.mktemp("as-it-is")
     nodes, _ = assessed(case, folder)
-    result = read_result(folder / "result", 2, 100, 50)
+    result = read_result(folder / "result", 2, 100)
     used = assumptions_of(result.record, "master-aluminium")
     return case, nodes, variants(result.worst("A"), result.cycles("A"), result.passes_per_km, used)
 

@@ -48,9 +48,11 @@ def show(folder: Path, top: int, welds: tuple[str, ...], as_json: bool) -> None:
 @click.argument("folder", metavar="DIR", type=FOLDER)
 @click.option("--pdf", is_flag=True, help="Print report.pdf as well, with an installed Chromium, Chrome or Edge.")
 @click.option("--xlsx", is_flag=True, help="Write nodes.xlsx as well (package `xlsxwriter`).")
+@click.option("--body", is_flag=True, help="Write body.vtp as well, the shells of the case for ParaView.")
 @click.option("--csv", is_flag=True, help="Write the tables as CSV as well.")
+@click.option("--bom", is_flag=True, help="Begin the CSV files with a byte order mark, by which Excel tells UTF-8.")
 @click.option("--case", "case_file", type=CASE, help="Case file, if it is not where the result says.")
-@click.option("--force", is_flag=True, help="Overwrite PDF, workbook and CSV files that are there already.")
+@click.option("--force", is_flag=True, help="Overwrite PDF, workbook, body and CSV files that are there already.")
 @no_lock
 @click.pass_obj
 def report(
@@ -58,7 +60,9 @@ def report(
     folder: Path,
     pdf: bool,
     xlsx: bool,
+    body: bool,
     csv: bool,
+    bom: bool,
     case_file: Path | None,
     force: bool,
     no_lock: bool,
@@ -70,17 +74,20 @@ def report(
     \b
     Examples:
       fatigue report result --pdf --xlsx
+      fatigue report result --csv --bom
       fatigue report result --case body/case.toml
     """
+    if bom and not csv:
+        raise click.UsageError("--bom is about CSV files: give --csv as well.")
     refuse_missing_result(folder, case_file, no_lock=no_lock)
     from fatigue.documents import AGAIN, CSV, write_documents
-    from fatigue.results import PRINT, WORKBOOK
+    from fatigue.results import BODY, PRINT, WORKBOOK
     from fatigue.results.outputs import damage_told
 
-    wanted = [*AGAIN, *[WORKBOOK] * xlsx, *CSV * csv, *[PRINT] * pdf]
+    wanted = [*AGAIN, *[WORKBOOK] * xlsx, *[BODY] * body, *CSV * csv, *[PRINT] * pdf]
     with narrated(quiet=options["quiet"]), damage_told(folder):
         done = write_documents(
-            folder, wanted, case_file=case_file, verification=known_values, force=force, no_lock=no_lock
+            folder, wanted, case_file=case_file, verification=known_values, force=force, no_lock=no_lock, bom=bom
         )
     for path in done.written:
         say(path)

@@ -4,7 +4,7 @@ import base64
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 from xml.sax.saxutils import quoteattr
 
 import numpy as np
@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from fatigue.errors import DataError, Problem, given_path
 from fatigue.files.mishaps import refused_writing
 from fatigue.files.whole import replacing
+from fatigue.report.wording import LONGEST
 from fatigue.results import NODES, PICTURE, Column, enlist, marked, read_codes, read_provenance, read_table
 from fatigue.weld.line import WeldLine
 
@@ -41,8 +42,9 @@ def write_vtp(folder: Path | str, into: Path | None = None) -> Path:
 
     A point of the file is a node of a weld line. Columns that differ between the faces come twice, with ``_top`` and
     ``_bottom`` at the end of their name; texts are VTK strings, and ``weld_number`` counts the welds in the order of
-    the register, for colouring; a comment carries the hash of the result. ``into`` is another folder to write to, where
-    it is not listed as a document of the result. Source of the format: VTK file formats, XML PolyData.
+    the register, for colouring. ``worst_utilisation``, which is shown at first, and ``worst_life_km``, at most 1e12,
+    are those of the worse toe face. A comment carries the hash of the result. ``into`` is another folder to write to,
+    where it is not listed as a document of the result. Source of the format: VTK file formats, XML PolyData.
 
     Raises
     ------
@@ -52,12 +54,13 @@ def write_vtp(folder: Path | str, into: Path | None = None) -> Path:
     surface, faces = read_codes(folder, "nodes", "surface")
     register = read_table(folder, "welds", ["weld", "closed", "parts"]).to_pydict()
     rows = {face: np.flatnonzero(surface == i) for i, face in enumerate(faces)}
-    xyz = np.stack([read_table(folder, "nodes", [name])[name].to_numpy()[rows["top"]] for name in _XYZ], axis=1)
+    xyz = np.stack([_numbers(folder, name)[rows["top"]] for name in _XYZ], axis=1)
     path = (into or folder) / PICTURE
     mark = marked(read_provenance(folder).get("result", ""))
     data = _point_data(folder, rows, register)
+    lines = _line_points(folder, rows["top"], register)
     with refused_writing(path), path.open("w", encoding="ascii", newline="\n") as file:
-        file.writelines(_poly_lines(xyz, _line_points(folder, rows["top"], register), data, mark))
+        file.writelines(poly_data(xyz, lines, data, comment=mark, scalars="worst_utilisation"))
     if into is None:
         enlist(folder, path)
     return path
@@ -93,9 +96,25 @@ def _point_data(
     weld, names = read_codes(folder, "nodes", "weld")
     place = {name: i for i, name in enumerate(register["weld"], 1)}
     yield _data("weld_number", "i8", np.array([place[name] for name in names])[weld[rows["top"]]])
+    yield from _of_worse_face(folder, rows)
     for column in NODES:
         if column.name not in (*STATION, "surface"):
             yield from _arrays(folder, column, {f"{column.name}_{face}": rows[face] for face in ("top", "bottom")})
+
+
+def _of_worse_face(folder: Path, rows: Mapping[str, NDArray[np.int64]]) -> Iterator[str]:
+    """Utilisation and life of the toe face with the larger utilisation, of the larger where neither has a toe."""
+    toe, utilisation, life = (_numbers(folder, name) for name in ("toe", "utilisation", "life_km"))
+    rank = np.nan_to_num(utilisation, nan=-1.0) + np.where(toe, 1e30, 0.0)
+    worse = np.where(rank[rows["top"]] >= rank[rows["bottom"]], rows["top"], rows["bottom"])
+    yield _data("worst_utilisation", "f8", utilisation[worse])
+    yield _data("worst_life_km", "f8", np.minimum(life[worse], LONGEST))
+
+
+def _numbers(folder: Path, name: str) -> NDArray[Any]:
+    """Column of numbers or flags of the table of nodes."""
+    values: NDArray[Any] = read_table(folder, "nodes", [name])[name].to_numpy()
+    return values
 
 
 def _arrays(folder: Path, column: Column, wanted: Mapping[str, NDArray[np.int64]]) -> Iterator[str]:
@@ -141,23 +160,40 @@ def write_line_picture(path: Path | str, lines: Sequence[WeldLine], *, overwrite
     ]
     xyz = np.concatenate([line.xyz for line in lines])
     with replacing(path) as unfinished, unfinished.open("w", encoding="ascii", newline="\n") as file:
-        file.writelines(_poly_lines(xyz, points, data))
+        file.writelines(poly_data(xyz, points, data))
 
 
-def _poly_lines(
-    xyz: NDArray[np.float64], lines: Sequence[NDArray[np.integer]], point_data: Iterable[str], comment: str = ""
+def poly_data(
+    xyz: NDArray[np.float64],
+    cells: Sequence[NDArray[np.integer]],
+    point_data: Iterable[str],
+    *,
+    cell_data: Iterable[str] = (),
+    kind: Literal["Lines", "Polys"] = "Lines",
+    comment: str = "",
+    scalars: str = "",
 ) -> Iterator[str]:
-    """Text of the file: a comment, points, poly-lines and the arrays of the points."""
+    """Text of a file: a comment, points, cells of one kind, the arrays of points and those of cells.
+
+    ``scalars`` names the array of the points that is shown at first.
+    """
     yield '<?xml version="1.0"?>\n'
     yield f"<!-- {comment} -->\n" if comment else ""
     yield '<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n<PolyData>\n'
-    yield f'<Piece NumberOfPoints="{len(xyz)}" NumberOfLines="{len(lines)}">\n'
-    yield f"<Points>\n{_data('Points', 'f8', xyz, components=3)}</Points>\n<Lines>\n"
-    yield _data("connectivity", "i8", np.concatenate(lines))
-    yield _data("offsets", "i8", np.cumsum([len(line) for line in lines]))
-    yield "</Lines>\n<PointData>\n"
+    yield f'<Piece NumberOfPoints="{len(xyz)}" NumberOf{kind}="{len(cells)}">\n'
+    yield f"<Points>\n{_data('Points', 'f8', xyz, components=3)}</Points>\n<{kind}>\n"
+    yield _data("connectivity", "i8", np.concatenate(cells))
+    yield _data("offsets", "i8", np.cumsum([len(cell) for cell in cells]))
+    yield f"</{kind}>\n<PointData{f' Scalars={quoteattr(scalars)}' if scalars else ''}>\n"
     yield from point_data
-    yield "</PointData>\n</Piece>\n</PolyData>\n</VTKFile>\n"
+    yield "</PointData>\n<CellData>\n"
+    yield from cell_data
+    yield "</CellData>\n</Piece>\n</PolyData>\n</VTKFile>\n"
+
+
+def integer_array(name: str, values: NDArray[np.integer]) -> str:
+    """Data array of whole numbers."""
+    return _data(name, "i8", values)
 
 
 def _texts(name: str, codes: NDArray[np.integer], texts: Sequence[str]) -> str:

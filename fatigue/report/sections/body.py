@@ -1,21 +1,19 @@
 """The parts of the page about the whole body: lives of all welds, where they are, what drives them, both domains."""
 
-from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import pandas as pd
-from markupsafe import Markup
 from numpy.typing import NDArray
 
 from fatigue.report import figures, wording
 from fatigue.report.figures.scene import BodyOutline
 from fatigue.report.result import ShownResult
-from fatigue.report.sections.embed import Figures, Shown, embedded, packed
+from fatigue.report.sections.embed import Figures, Shown
 from fatigue.report.sections.why import Why, band_shares
 
 WELDS_DRAWN, STRIPS_DRAWN, CAUSES_DRAWN = 30, 60, 20
-PROBED = ("arc_length_mm", "life_km", "load_factor", "dirlik_ratio", "max_range_MPa")
 
 
 def lives(result: ShownResult, figs: Figures) -> Shown:
@@ -25,14 +23,30 @@ def lives(result: ShownResult, figs: Figures) -> Shown:
     return figs.add("lives", fig, caption)
 
 
-def where(result: ShownResult, body: BodyOutline | None, links: Mapping[str, str], figs: Figures) -> dict[str, Any]:
-    """Draw the weld lines in space, on paper and unrolled; with the data behind a click in space."""
-    stations = figures.worst_faces(result.nodes)
+@dataclass(frozen=True, slots=True, eq=False)
+class DrawnLines:
+    """Weld lines as they are drawn: the worse toe face of each station, and rows of these, -1 between the lines.
+
+    ``of_nodes`` are the rows of the stations in the table of nodes.
+    """
+
+    stations: pd.DataFrame
+    rows: NDArray[np.int64]
+    of_nodes: NDArray[np.int64]
+
+
+def drawn_lines(result: ShownResult) -> DrawnLines:
+    """The lines of the drawn welds."""
+    stations = figures.worst_faces(result.nodes.assign(row=np.arange(len(result.nodes))))
     welds = result.assessed
     closed = frozenset(welds.loc[welds["closed"] & (welds["parts"] == 1), "weld"])
-    rows = figures.line_rows(stations, closed)
-    scene = figures.scene(stations, rows, result.target_km, body)
-    views = figures.projections(stations, rows, result.target_km, body)
+    return DrawnLines(stations, figures.line_rows(stations, closed), stations.pop("row").to_numpy())
+
+
+def where(result: ShownResult, lines: DrawnLines, body: BodyOutline | None, figs: Figures) -> dict[str, Shown]:
+    """Draw the weld lines in space, on paper and unrolled."""
+    scene = figures.scene(lines.stations, lines.rows, result.target_km, body)
+    views = figures.projections(lines.stations, lines.rows, result.target_km, body)
     strips = figures.weld_strips(result.nodes, result.target_km, STRIPS_DRAWN)
     unrolled = "Every weld line unrolled, coloured by life" + _those_drawn(result, STRIPS_DRAWN)
     worst = _those_drawn(result, len(result.drawn))
@@ -41,34 +55,7 @@ def where(result: ShownResult, body: BodyOutline | None, links: Mapping[str, str
         "scene": figs.add("scene", scene, f"{in_space}, coloured by the shorter life of the toe faces{worst}"),
         "projections": figs.add("views", views, f"Side view and plan of the weld lines, coloured by life{worst}"),
         "strips": figs.add("strips", strips, unrolled),
-        "points": _probe(stations, rows, result, links),
     }
-
-
-def _probe(stations: pd.DataFrame, rows: NDArray[np.int64], result: ShownResult, links: Mapping[str, str]) -> Markup:
-    """What a click in the scene shows and what its lines can be coloured by, packed in the order of drawing."""
-    drawn = stations.iloc[np.maximum(rows, 0)]  # nobody asks for what stands at the gaps between the lines
-    welds, events = list(result.assessed["weld"]), list(result.passes_per_km)
-
-    def index(column: str, names: Sequence[str]) -> dict[str, str]:
-        place = {name: i for i, name in enumerate(names)}
-        return packed(drawn[column].map(place).fillna(len(names)).to_numpy(dtype=np.int64))
-
-    return embedded(
-        {
-            "node": packed(drawn["node"].to_numpy()),
-            "weld": index("weld", welds),
-            "event": index("governing_event", events),
-            "bottom": packed((drawn["surface"] == "bottom").to_numpy(dtype=np.int64)),
-            **{name: packed(drawn[name].to_numpy()) for name in PROBED},
-            "welds": welds,
-            "events": events,
-            "pages": dict(links),
-            "target_km": result.target_km,
-            "km_per_year": result.record["mission"]["km_per_year"],
-            "colours": list(figures.event_colours(events).values()),
-        }
-    )
 
 
 def causes(result: ShownResult, why: Why | None, figs: Figures) -> dict[str, Shown | None]:

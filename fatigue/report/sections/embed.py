@@ -1,13 +1,10 @@
-"""Figures and data inside the page: as JSON that no name can break out of, arrays as base64 in single precision."""
+"""Figures and data inside the page, as JSON that no name can break out of."""
 
-import base64
 import json
 from dataclasses import dataclass, field
 from typing import Any
 
-import numpy as np
 from markupsafe import Markup
-from numpy.typing import NDArray
 
 from fatigue.report.figures.drawn import Figure
 from fatigue.shown import visible
@@ -63,17 +60,3 @@ def _shown(value: Any) -> Any:
     if isinstance(value, dict):
         return {_shown(key): _shown(held) for key, held in value.items()}
     return [_shown(held) for held in value] if isinstance(value, list | tuple) else value
-
-
-def packed(values: NDArray[np.generic]) -> dict[str, str]:
-    """Array as plotly.js reads it: type and base64 of its bytes, infinite and missing values included.
-
-    Whole numbers take the smallest type that holds them, ids too large for 32 bits double precision.
-    """
-    if values.dtype.kind in "iu":
-        low, high = int(values.min(initial=0)), int(values.max(initial=0))
-        fitting = (t for t in ("u1", "u2", "i4") if np.iinfo(t).min <= low and high <= np.iinfo(t).max)
-        code = next(fitting, "f8")
-    else:
-        code = "f4"
-    return {"dtype": code, "bdata": base64.b64encode(values.astype(f"<{code}").tobytes()).decode()}

@@ -57,48 +57,7 @@ def weld_table(welds: pd.DataFrame, links: Mapping[str, str], most: int = 10) ->
     return PageTable("worst-welds", headings, rows)
 
 
-def point_table(nodes: pd.DataFrame, links: Mapping[str, str], most: int, id_: str, label: str = "") -> PageTable:
-    """Worst toe points of all welds, those that a bound has settled left out."""
-    worst = (
-        nodes[nodes["toe"] & (nodes["screened"] == "")]
-        .sort_values("utilisation", ascending=False, kind="stable")
-        .head(most)
-    )
-    rows = tuple(
-        (
-            integer(rank),
-            linked(row.weld, links),
-            integer(row.node),
-            text(row.surface),
-            given(row.arc_length_mm),
-            *(cell(getattr(row, name)) for name, cell in LIFE_COLUMNS.items()),
-            life(row.life_km_dirlik),
-            num(row.dirlik_ratio),
-            num(row.max_range_MPa),
-            num(row.equivalent_range_2e6_MPa),
-            text(row.governing_event),
-            text(_place(row)),
-        )
-        for rank, row in enumerate(worst.itertuples(), start=1)
-    )
-    headings = (
-        Heading("rank"),
-        WELD,
-        Heading("node"),
-        FACE,
-        Heading("arc length", "mm"),
-        *LIFE,
-        Heading("Dirlik life", "km"),
-        Heading("Dirlik / rainflow damage", "-"),
-        Heading("largest range", "MPa"),
-        Heading("equiv. range at 2e6", "MPa"),
-        EVENT,
-        Heading("place", numeric=False),
-    )
-    return PageTable(id_, headings, rows, label)
-
-
-def _place(row: Any) -> str:
+def place(row: Any) -> str:
     """What is special about the place of a point, in short."""
     corner = "corner, summed" if row.summed_corner else "corner"
     return ", ".join(words for words, flag in (("end", row.at_end), (corner, row.at_corner)) if flag)
@@ -114,9 +73,10 @@ def register_table(welds: pd.DataFrame, links: Mapping[str, str]) -> PageTable:
     )
     headings = (
         WELD,
+        Heading("target", numeric=False),
+        *LIFE,
         Heading("description", numeric=False),
         Heading("status", numeric=False),
-        Heading("target", numeric=False),
         Heading("length", "mm"),
         Heading("nodes"),
         Heading("parts"),
@@ -126,7 +86,6 @@ def register_table(welds: pd.DataFrame, links: Mapping[str, str]) -> PageTable:
         Heading("curve", numeric=False),
         Heading("survival", numeric=False),
         Heading("end length", "mm"),
-        *LIFE,
         *(_REGISTER[column][0] for column in more),
     )
     return PageTable("weld-register", headings, rows, "Find a weld")
@@ -175,9 +134,10 @@ def _register_row(row: Any, links: Mapping[str, str]) -> tuple[Cell, ...]:
     is_assessed = row.status == "assessed"
     return (
         linked(row.weld, links),
+        verdict(row.fulfilled) if is_assessed else text(None),
+        *(num(None) if not is_assessed else cell(getattr(row, name)) for name, cell in LIFE_COLUMNS.items()),
         text(row.description),
         text(_status(row)),
-        verdict(row.fulfilled) if is_assessed else text(None),
         given(row.length_mm),
         integer(row.nodes, grouped=True),
         integer(row.parts),
@@ -187,7 +147,6 @@ def _register_row(row: Any, links: Mapping[str, str]) -> tuple[Cell, ...]:
         text(row.curve),
         text(row.survival),
         Cell("plate thickness", 0.0) if is_assessed and pd.isna(row.end_length_mm) else given(row.end_length_mm),
-        *(cell(getattr(row, name)) for name, cell in LIFE_COLUMNS.items()),
     )
 
 

@@ -1,6 +1,6 @@
 """One weld on the page: its figures along the line, its worst point in detail, its life under other assumptions."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -25,20 +25,23 @@ from fatigue.report.variants import assumptions_of, variants
 from fatigue.results.beside.life_band import Bands
 
 EVENTS_LISTED = 20
+ONLY_SCREEN = ("matrix", "damage-bands", "track")  # figures of a weld that paper does without
 
 
 @dataclass(frozen=True, slots=True)
 class WeldPage:
     """One weld in detail; what only a diagnosis or load spectra know is empty without one.
 
-    ``bounded`` points of it have a lower bound of life in place of a counted one; ``unverified``: its life rests on a
-    curve that nobody has verified.
+    ``on_paper``: it is printed, but for the figures ``only_screen``. ``bounded`` points of it have a lower bound of
+    life in place of a counted one; ``unverified``: its life rests on a curve that nobody has verified.
     """
 
     id: str
     name: str
     row: Mapping[str, Any]
     unverified: bool
+    on_paper: bool
+    only_screen: Collection[str]
     facts: list[tuple[str, str]]
     checks: PageTable | None
     along: Shown
@@ -64,8 +67,9 @@ def weld_page(
     bands: Bands | None,
     figs: Figures,
     id_: str,
+    printed: Collection[str],
 ) -> WeldPage:
-    """All that is shown of one weld; ``detail`` is None where the records were not found."""
+    """All that is shown of one weld; ``detail`` is None where the records were not found, ``printed`` go to paper."""
     row = result.assessed.set_index("weld", drop=False).loc[weld]
     point = result.worst(weld)
     cycles = result.cycles(weld)
@@ -100,6 +104,8 @@ def weld_page(
         name=weld,
         row=row.to_dict(),
         unverified=bool(unverified),
+        on_paper=weld in printed,
+        only_screen={f"{id_}-{name}" for name in ONLY_SCREEN},
         facts=[
             *weld_tables.facts(point, row, curve_words(row["curve"], result.record)),
             *band_facts(bands, point),

@@ -14,6 +14,15 @@
     document.head.append(script);
   };
 
+  // Figures are numbered as they are seen: some are on the screen only, others on paper only.
+  const number = (unseen) => {
+    let n = 0;
+    document.querySelectorAll("figure").forEach((figure) => {
+      const label = figure.querySelector("figcaption b");
+      if (label && !figure.closest(unseen)) label.textContent = label.textContent.replace(/\d+/, () => String(++n));
+    });
+  };
+
   // Figures are drawn when they come into view, all at once for paper.
   const forPaper = (plot) => !plot.closest(".screen");
   const fit = (plot) => {
@@ -38,11 +47,6 @@
   );
 
   // Points of the scene: what they can be coloured by, and what is shown of the one under the pointer.
-  const unpack = ({ dtype, bdata }) => {
-    const bytes = Uint8Array.from(atob(bdata), (c) => c.charCodeAt(0));
-    const types = { f4: Float32Array, f8: Float64Array, i4: Int32Array, u2: Uint16Array, u1: Uint8Array };
-    return new types[dtype](bytes.buffer);
-  };
   const digits = (x, most = 3) => {  // as wording.number does
     if (Number.isNaN(x)) return "–";
     if (x > 1e12) return "> 1e12";
@@ -52,9 +56,44 @@
     if (size >= 1e4) return String(Math.round(Number(x.toPrecision(most)))).replace(/\B(?=(\d{3})+$)/g, "\u202f");
     return x.toPrecision(most).replaceAll("-", "−");
   };
-  function probe(plot) {
-    const points = read("probe-data");
-    for (const [name, value] of Object.entries(points)) if (value.bdata) points[name] = unpack(value);
+  // All points of the drawn welds in columns: inflated once, when something of the page first asks for them.
+  const inflate = async ({ heads, deflate }) => {
+    const packed = Uint8Array.from(atob(deflate), (c) => c.charCodeAt(0));
+    const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
+    const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
+    const types = { u1: Uint8Array, u2: Uint16Array, i4: Int32Array, f4: Float32Array, f8: Float64Array };
+    const columns = {};
+    let from = 0;
+    for (const [name, type, count] of heads) {
+      const column = new types[type](count);
+      const size = column.BYTES_PER_ELEMENT;
+      const raw = new Uint8Array(column.buffer);
+      for (let plane = 0; plane < size; plane += 1) for (let i = 0; i < count; i += 1) raw[i * size + plane] = bytes[from++];
+      columns[name] = column;
+    }
+    return columns;
+  };
+  let inflated = null;
+  const allPoints = () => {
+    const load = async () => {
+      const { heads, deflate, ...points } = read("points-data");
+      return Object.assign(points, await inflate({ heads, deflate }));
+    };
+    inflated ??= load();
+    return inflated;
+  };
+  window.fatigue = { allPoints, digits };  // for the scripts behind this one
+
+  async function probe(plot) {
+    const all = await allPoints();
+    let row = 0;
+    const drawn = Array.from(all.drawn_steps, (step) => (row += step));
+    const points = { ...all };
+    for (const name of ["node", "weld", "event", "flags", "arc_length_mm", "utilisation", "load_factor", "dirlik_ratio", "max_range_MPa"]) {
+      points[name] = drawn.map((i) => all[name][i]);
+    }
+    points.bottom = points.flags.map((flags) => flags & 1);
+    points.life_km = points.utilisation.map((u) => points.target_km / u);
     const trace = plot.data.findIndex((t) => t.name === "weld lines");
     const original = { scale: plot.data[trace].marker.colorscale };
     let kept = null;
@@ -197,12 +236,14 @@
   const prepare = () => {
     start();
     onPaper = true;
+    number(".screen");
     document.querySelectorAll("details").forEach((d) => { d.open = true; });
     plots.filter(forPaper).forEach((plot) => (plot.dataset.drawn ? Plotly.relayout(plot, { width: fit(plot) }) : draw(plot)));
   };
   addEventListener("beforeprint", () => { if (!onPaper) prepare(); });
   addEventListener("afterprint", () => {
     onPaper = false;
+    number(".paper");
     plots.filter((plot) => plot.dataset.drawn).forEach((plot) => {
       plot.style.zoom = "";
       Plotly.relayout(plot, { width: null, autosize: true });
@@ -210,6 +251,7 @@
   });
   if (onPaper) prepare();
   else {
+    number(".paper");
     open();
     requestAnimationFrame(() => setTimeout(() => {
       start();

@@ -82,3 +82,30 @@ def test_a_folder_without_result_is_refused(tmp_path):
     """The message says which table is missing."""
     with pytest.raises(DataError, match=r"nodes\.parquet: no such result table"):
         write_vtp(tmp_path)
+
+
+def test_lines_can_be_coloured_and_made_tubes_at_once(tmp_path):
+    """The array shown at first is finite: utilisation and life of the worse toe face, whatever the other one says."""
+    folder = write_result(tmp_path, Recipe(toes="bottom", stations=4))
+    path = write_vtp(folder)
+    found, _ = arrays(path)
+    bottom = pd.read_parquet(folder / "nodes.parquet").query("surface == 'bottom'")
+    np.testing.assert_array_equal(found["worst_utilisation"], bottom["utilisation"])
+    np.testing.assert_array_equal(found["worst_life_km"], bottom["life_km"])
+    assert '<PointData Scalars="worst_utilisation">' in path.read_text(encoding="ascii")
+    ends = np.append(0, found["offsets"])
+    assert all(np.diff(ends) >= 2)
+
+
+def test_an_infinite_life_does_not_spoil_the_colour_scale(tmp_path):
+    """It is 1e12 km there."""
+    found, _ = arrays(write_vtp(write_result(tmp_path, Recipe(level=0.0, stations=2))))
+    assert set(found["worst_life_km"]) == {1e12}
+    assert np.isinf(found["life_km_top"]).all()
+
+
+def test_of_two_toe_faces_the_worse_one_is_shown(result_folder):
+    """The larger utilisation of both."""
+    found, _ = arrays(write_vtp(result_folder))
+    largest = np.maximum(found["utilisation_top"], found["utilisation_bottom"])
+    np.testing.assert_array_equal(found["worst_utilisation"], largest)

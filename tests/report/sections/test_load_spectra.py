@@ -71,7 +71,7 @@ def listed_page(listed):
 
 def test_without_load_spectra_nothing_is_said_of_them(page, result_folder):
     """No empty headings."""
-    assert read_load_spectra(result_folder, read_result(result_folder, 1, 100, 50)) is None
+    assert read_load_spectra(result_folder, read_result(result_folder, 1, 100)) is None
     assert "Equivalent ranges" not in page.words
     assert spectra_words(None) == []
 

@@ -128,7 +128,7 @@ def ridden_page(ridden_html):
 
 def shown_ride(folder):
     """The ride of a result as the page reads it."""
-    return read_ride(folder, read_result(folder, 5, 1000, 50))
+    return read_ride(folder, read_result(folder, 5, 1000))
 
 
 def section(folder):
@@ -165,7 +165,7 @@ def test_without_a_ride_nothing_is_said_of_it(html, page, result_folder):
 def test_a_ride_that_is_not_whole_is_not_shown(ridden, tmp_path):
     """Half of its tables would be read as the whole; the track alone is no need."""
     folder = without(ridden, tmp_path)
-    result = read_result(folder, 5, 1000, 50)
+    result = read_result(folder, 5, 1000)
     for name in RIDDEN:
         path = folder / f"{name}.parquet"
         path.rename(path.with_suffix(".gone"))
@@ -407,7 +407,7 @@ def test_a_result_where_nothing_damages_has_its_tracks(tmp_path):
 def test_the_worst_weld_is_that_by_what_it_may_bear(tmp_path):
     """A weld with less damage and a smaller limit; older results have one limit for all."""
     folder = write_ride(write_result(tmp_path), channels_of("tangent"))
-    result = read_result(folder, 5, 1000, 50)
+    result = read_result(folder, 5, 1000)
     damage = pd.read_parquet(folder / "hot_damage.parquet").groupby("weld")["damage_per_km"].first()
     least = 0.5 * damage["W2 hanger"] / damage["W1 bracket"]
     for limits, worst in (((1.0, least), "W2 hanger"), ((None, None), "W1 bracket")):

@@ -105,14 +105,14 @@ def diagnosed_page(diagnosed):
 
 def test_without_diagnosis_its_sections_are_left_out(page, result_folder):
     """No empty headings."""
-    assert read_why(result_folder, read_result(result_folder, 1, 100, 50)) is None
+    assert read_why(result_folder, read_result(result_folder, 1, 100)) is None
     assert "buys most kilometres" not in page.words
     assert "weld-1-damage-bands" not in page.figures
 
 
 def test_shares_of_modes_and_bands_sum_over_the_events(diagnosed):
     """Both events together give the share of the point, largest mode first."""
-    why = read_why(diagnosed, read_result(diagnosed, 2, 100, 50)).of_weld("W1 bracket")
+    why = read_why(diagnosed, read_result(diagnosed, 2, 100)).of_weld("W1 bracket")
     modes = mode_shares(why)
     keys = [load if pd.isna(mode) else mode for mode, load in zip(modes["mode"], modes["unit_load"], strict=True)]
     assert keys == [1, 2, 7, "tunnel"]
