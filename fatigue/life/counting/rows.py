@@ -133,7 +133,8 @@ def _count_some(
         of_rows, sums = some.at(rows), counted.at(rows)
         for face in faces:
             found, s = _cycles(membrane[rows], bending[rows], face, *how)
-            sums.totals["mean"][:, face], sums.totals["kurtosis"][:, face] = mean_and_kurtosis(s)
+            if pieces is None:
+                sums.totals["mean"][:, face], sums.totals["kurtosis"][:, face] = mean_and_kurtosis(s)
             tally(found, of_rows, rule, sums, membrane.shape[1])
     return block_count(counted, rule, some.level)
 

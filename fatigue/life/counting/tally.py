@@ -149,9 +149,9 @@ def _tally(cycles: SurfaceCycles, stress: BlockStress, rule: CycleRule, counted:
         added["damage_same_ratio"] = n * cycle_damage(of.range * same_scale[cycles.surface], law)
         added["damage_with_shear"] = n * cycle_damage(dS * shear, law)
     if bins:
-        _add_to_bins(cycles, dS, n * np.exp(k * np.log(dS)), counted.histogram)
+        _add_to_bins(cycles, dS, n * np.exp(k * np.log(dS)), counted.histogram, 0)
     if bins > HISTOGRAM_BINS:
-        _add_to_bins(cycles, of.range, added["power_sum"], counted.histogram[:, :, HISTOGRAM_BINS:])
+        _add_to_bins(cycles, of.range, added["power_sum"], counted.histogram, HISTOGRAM_BINS)
     for name, values in added.items():
         np.add.at(total[name], cycles.surface, values)  # one after the other: the sum of a chunk never stands alone
     if not bins:  # d(a S) = d(a) S**k of a straight law
@@ -173,13 +173,16 @@ def _raise_largest(total: NDArray[np.void], surface: Indices, of: CycleStress) -
     total["r_largest"][raised] = np.divide(minimum, maximum, out=np.full_like(maximum, math.nan), where=maximum != 0.0)
 
 
-def _add_to_bins(cycles: SurfaceCycles, x: Floats, power: Floats, histogram: Floats) -> None:
-    """Add cycles of the ranges x to sum n and sum n x^k of their bins, (n, 2, b, 2); ``power`` is n x^k."""
+def _add_to_bins(cycles: SurfaceCycles, x: Floats, power: Floats, histogram: Floats, first: int) -> None:
+    """Add cycles of the ranges x to sum n and sum n x^k of their bins, those from the ``first`` one on (n, 2, b, 2).
+
+    ``power`` is n x^k.
+    """
     decades = np.log10(np.maximum(x, 1e-3)) + 3.0
     bin_ = np.minimum((decades * BINS_PER_DECADE).astype(np.intp), HISTOGRAM_BINS - 1)
-    at = cycles.surface // 2, cycles.surface % 2, bin_
-    np.add.at(histogram[..., 0], at, cycles.weight)
-    np.add.at(histogram[..., 1], at, power)
+    at, sums = cycles.surface * histogram.shape[2] + first + bin_, histogram.reshape(-1, 2)
+    np.add.at(sums[:, 0], at, cycles.weight)  # one index is added at ten times as fast as three
+    np.add.at(sums[:, 1], at, power)
 
 
 def _lay_halves(cycles: SurfaceCycles, damage: Floats, samples: int, pieces: Floats) -> None:
@@ -187,6 +190,6 @@ def _lay_halves(cycles: SurfaceCycles, damage: Floats, samples: int, pieces: Flo
 
     So the pieces add up to the damage, that of cycles from one to another and across the end of the record included.
     """
-    piece = cycles.at * pieces.shape[2] // samples
-    for at in piece:
-        np.add.at(pieces, (cycles.surface // 2, cycles.surface % 2, at), 0.5 * damage)
+    laid, half = pieces.reshape(-1), 0.5 * damage
+    for piece in cycles.at * pieces.shape[2] // samples:
+        np.add.at(laid, cycles.surface * pieces.shape[2] + piece, half)

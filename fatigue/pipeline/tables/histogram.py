@@ -35,7 +35,7 @@ KINDS = ("S", "dS")
 POINTS_AT_ONCE = 512  # that wait for each other
 _POINTS = 128  # counted at a time by one thread,
 _POINTS_OF_LOOPS = 32  # whose residues one thread finds at a time
-_SAMPLES = 1_000_000  # or fewer, with so many samples of stress in all: 16 MB
+_SAMPLES = 2_000_000  # or fewer, with so many samples of stress in all: 32 MB
 
 _ROW = np.dtype(
     [*((name, np.int32) for name in ("point", "event", "kind", "bin")), ("count", float), ("power_sum", float)]
