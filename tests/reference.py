@@ -1,19 +1,24 @@
-"""Commands, options, keys of a case, columns and codes, collected from the program, and their page of the docs.
+"""Commands, options, keys of a case, columns, curves, codes and names, collected from the program for the docs.
 
-``python -m tests.reference`` writes the collected parts of ``docs/reference.md`` again; what each warning means is
-written there by hand.
+``python -m tests.reference`` writes the collected parts of ``docs/**/*.md`` again, and what refusals say into
+``fatigue/explain/told.json``. What warnings mean is written in ``fatigue/explain/warnings.toml`` by hand.
 """
 
+import inspect
 import json
-import re
+from collections.abc import Mapping
+from itertools import groupby
 from pathlib import Path
 from typing import Any
 
 import click
 
+import fatigue
 from fatigue.case import case_schema
 from fatigue.cli import cli
 from fatigue.decide.fleet.fleet_file import Fleet
+from fatigue.explain import Explanation, all_codes
+from fatigue.life.curves import catalogue
 from fatigue.results.columns import TABLES
 from fatigue.results.dictionary.basis import BASIS
 from fatigue.results.dictionary.claims import CLAIMED
@@ -31,10 +36,13 @@ from fatigue.study.vehicle_file import keys_of
 from fatigue.study.vehicle_keys import KEYS, Key
 from fatigue.study.vehicle_text import toml_value
 from fatigue.vehicle.definition import Vehicle
-from tests.problem_codes import codes
+from fatigue.verify.table import verification_table
+from tests.equations import equation_list, equation_pages
+from tests.told_problems import told
 
 ROOT = Path(__file__).parents[1]
-PAGE = ROOT / "docs" / "reference.md"
+DOCS = ROOT / "docs"
+TOLD = ROOT / "fatigue" / "explain" / "told.json"
 AREAS = (  # where the refusals of a room are met by users; the first that fits
     ("case", "The case file"),
     ("readers/neutral", "Tables and histories of a case, weld register"),
@@ -113,21 +121,9 @@ def options(command: click.Command) -> list[click.Option]:
     return [p for p in command.params if isinstance(p, click.Option)]
 
 
-def named_in(text: str) -> set[str]:
-    """Codes that stand in the first column of a table, each in backticks."""
-    return {
-        name for cell in re.findall(r"^\| (`[^|]+) \|", text, re.MULTILINE) for name in re.findall(r"`(\w+)`", cell)
-    }
-
-
 def section(text: str, heading: str) -> str:
     """Text under a heading of the second level."""
     return text.split(f"\n## {heading}\n", 1)[1].split("\n## ", 1)[0]
-
-
-def warnings_told(text: str) -> set[str]:
-    """Codes that the page tells as warnings, by hand."""
-    return named_in(section(text, "Warnings of a result")) | named_in(section(text, "Warnings of other commands"))
 
 
 def command_text() -> str:
@@ -136,7 +132,7 @@ def command_text() -> str:
     for name, command in commands().items():
         context = click.Context(command, info_name=f"fatigue {name}".strip())
         usage = " ".join(command.collect_usage_pieces(context))
-        lines = [f"### fatigue {name}".rstrip(), "", f"`{context.info_name} {usage}`", "", _first_words(command), ""]
+        lines = [f"## fatigue {name}".rstrip(), "", f"`{context.info_name} {usage}`", "", _first_words(command), ""]
         rows = [_option_row(option) for option in options(command)]
         lines += ["| option | what it does |", "|---|---|", *rows] if rows else []
         parts.append("\n".join(lines))
@@ -191,7 +187,7 @@ def _keys_of_models(tables: dict[str, str], schema: dict[str, Any]) -> str:
             given = None if isinstance(about.get("default"), dict) else about.get("default")
             default = "required" if key in of.get("required", ()) else "" if given is None else f"`{json.dumps(given)}`"
             rows.append(f"| `{key}` | {default} | {about['description']} |")
-        lines = [f"### {heading}", "", of["description"], "", "| key | default | what it is |", "|---|---|---|", *rows]
+        lines = [f"## {heading}", "", of["description"], "", "| key | default | what it is |", "|---|---|---|", *rows]
         parts.append("\n".join(lines))
     return "\n\n".join(parts)
 
@@ -204,7 +200,7 @@ def vehicle_key_text() -> str:
             f"| `{name}` | {_value_of(reference[f'{table}.{name}'])} | {key.origin} | {key.meaning}{_allowed(key)} |"
             for name, key in keys.items()
         ]
-        lines = [f"### Vehicle: [{table}]", "", "| key | value | origin | what it is |", "|---|---|---|---|", *rows]
+        lines = [f"## Vehicle: [{table}]", "", "| key | value | origin | what it is |", "|---|---|---|---|", *rows]
         parts.append("\n".join(lines))
     return "\n\n".join(parts)
 
@@ -230,42 +226,138 @@ def column_text() -> str:
     for table, its in WRITTEN.items():
         rows = [f"| `{c.name}` | {c.type} | {c.unit} | {c.meaning} |" for c in its]
         parts.append(
-            "\n".join([f"### {table}.parquet", "", "| column | type | unit | meaning |", "|---|---|---|---|", *rows])
+            "\n".join([f"## {table}.parquet", "", "| column | type | unit | meaning |", "|---|---|---|---|", *rows])
         )
     return "\n\n".join(parts)
 
 
-def refusal_text(page: str) -> str:
-    """Codes of all refusals by the place where they are met."""
-    warnings, areas = warnings_told(page), dict.fromkeys(area for _, area in AREAS)
-    listed: dict[str, set[str]] = {area: set() for area in areas}
-    for code, modules in codes().items():
-        for module in modules:
-            area = next(area for room, area in AREAS if module.startswith((f"{room}/", f"{room}.py")) or not room)
-            listed[area] |= {code} - warnings
-    rows = [
-        f"| {area} | {', '.join(f'`{code}`' for code in sorted(found))} |" for area, found in listed.items() if found
+def curve_text() -> str:
+    """Every curve of the catalogue with its numbers, then with source and clause."""
+    curves = catalogue().values()
+    numbers = [
+        f"| `{c.name}` | {c.applies} | {c.quantity} | {_numbers(c.slopes)} | {_numbers(c.knees_cycles)} "
+        f"| {_levels(c.reference_range)} | {c.reference_cycles:g} |"
+        for c in curves
     ]
-    return "\n".join(["| where | codes |", "|---|---|", *rows])
+    sources = [f"| `{c.name}` | {_cell(c.source)} | {c.status} |" for c in curves]
+    return "\n".join(
+        [
+            *("## Numbers", "", "| curve | applies to | quantity | slopes k | knees [cycles] | range | at cycles |"),
+            *("|---|---|---|---|---|---|---|", *numbers),
+            *("", "## Sources", "", "| curve | source, edition and clause | status |", "|---|---|---|", *sources),
+        ]
+    )
 
 
-def with_collected(page: str) -> str:
-    """Page with its collected parts as the program has them now."""
-    collected = {
-        "commands": command_text(),
-        "keys": key_text(),
-        "vehicle keys": vehicle_key_text(),
-        "study keys": study_key_text(),
-        "fleet keys": fleet_key_text(),
-        "columns": column_text(),
-        "codes": refusal_text(page),
-    }
-    for name, text in collected.items():
-        begin, end = f"<!-- {name}: written by python -m tests.reference -->", f"<!-- end of {name} -->"
-        before, rest = page.split(begin, 1)
-        page = f"{before}{begin}\n\n{text}\n\n{end}{rest.split(end, 1)[1]}"
-    return page
+def _levels(ranges: Mapping[str, float]) -> str:
+    return "; ".join(f"{level} {value:.6g}" for level, value in ranges.items())
+
+
+def _numbers(values: tuple[float, ...]) -> str:
+    return ", ".join(f"{value:.4g}" for value in values)
+
+
+def warning_text(of: str) -> str:
+    """Families of the warnings of results or of commands: why they matter, what each says and what to do."""
+    pages = [page for page in all_codes().values() if page.kind == f"warning of a {of}"]
+    parts = []
+    for family, its in groupby(pages, key=lambda page: page.family):
+        listed = list(its)
+        rows = [f"| `{page.code}` | {_cell(page.says)} | {_cell(page.do)} |" for page in listed]
+        table = ["| code | what it says | what to do |", "|---|---|---|", *rows]
+        parts.append("\n".join([f"## {family}", "", listed[0].why, "", *table]))
+    return "\n\n".join(parts)
+
+
+def refusal_text() -> str:
+    """Refusals by the place where they are met, with what they say and advise there."""
+    areas: dict[str, dict[str, tuple[str, str]]] = {area: {} for _, area in AREAS}
+    for page in all_codes().values():
+        for area, said in _by_area(page).items():
+            if page.kind == "refusal":
+                areas[area][page.code] = said
+    parts = []
+    for area, found in areas.items():
+        rows = [f"| `{code}` | {_cell(says)} | {_cell(do)} |" for code, (says, do) in sorted(found.items())]
+        if rows:
+            table = ["| code | what it says | what to do |", "|---|---|---|", *rows]
+            parts.append("\n".join([f"## {area}", "", *table]))
+    return "\n\n".join(parts)
+
+
+def _by_area(page: Explanation) -> dict[str, tuple[str, str]]:
+    """Of each area the words of the first place in it that has some."""
+    found: dict[str, tuple[str, str]] = {}
+    for place in page.places:
+        area = next(a for room, a in AREAS if place.module.startswith((f"{room}/", f"{room}.py")) or not room)
+        before = found.get(area, ("", ""))
+        found[area] = (before[0] or page.says or place.what, before[1] or page.do or place.remedy)
+    return found
+
+
+def _cell(text: str) -> str:
+    return text.replace("|", r"\|")
+
+
+def python_text() -> str:
+    """Public names with signature and docstring."""
+    parts = []
+    for name in sorted(set(fatigue.__all__) - {"__version__"}):
+        thing = getattr(fatigue, name)
+        signature = str(inspect.signature(thing)) if not inspect.isclass(thing) else ""
+        module = inspect.getmodule(thing)
+        lines = [f"## fatigue.{name}", "", f"`{name}{signature}`", "", f"In `{module.__name__ if module else name}`."]
+        parts.append("\n".join([*lines, "", "```text", inspect.getdoc(thing) or "", "```"]))
+    return "\n\n".join(parts)
+
+
+def known_value_text() -> str:
+    """Known values by topic: what is expected, how near it has to be, where it comes from."""
+    parts = []
+    for topic, its in groupby(verification_table().checks, key=lambda check: check.topic):
+        rows = [
+            f"| {_cell(c.case)} | {_cell(c.quantity)} | {c.expected:.9g} {c.unit} "
+            f"| {c.tolerance:.0e} | {_cell(c.source)} |"
+            for c in its
+        ]
+        table = ["| case | quantity | expected | tolerance | source |", "|---|---|---|---|---|", *rows]
+        parts.append("\n".join([f"## {topic[0].upper()}{topic[1:]}", "", *table]))
+    return "\n\n".join(parts)
+
+
+PAGES = {  # of the docs, and what is written into each
+    "reference/commands": command_text,
+    "reference/case-keys": key_text,
+    "reference/vehicle-keys": vehicle_key_text,
+    "reference/study-keys": study_key_text,
+    "reference/fleet-keys": fleet_key_text,
+    "reference/columns": column_text,
+    "reference/curves": curve_text,
+    "reference/warnings-of-results": lambda: warning_text("result"),
+    "reference/warnings-of-commands": lambda: warning_text("command"),
+    "reference/errors": refusal_text,
+    "reference/python": python_text,
+    "theory": equation_list,
+    "verification/known-values": known_value_text,
+}
+BEGIN, END = "<!-- written by python -m tests.reference -->", "<!-- end of what is written -->"
+
+
+def told_text() -> str:
+    """What every problem says and advises where it is made, for ``fatigue explain``."""
+    return json.dumps(told(), ensure_ascii=False, indent=1) + "\n"
+
+
+def with_collected(name: str, page: str) -> str:
+    """Page of the reference with its collected part as the program has it now."""
+    before, rest = page.split(BEGIN, 1)
+    return f"{before}{BEGIN}\n\n{PAGES[name]()}\n\n{END}{rest.split(END, 1)[1]}"
 
 
 if __name__ == "__main__":
-    PAGE.write_text(with_collected(PAGE.read_text(encoding="utf-8")), encoding="utf-8")
+    TOLD.write_text(told_text(), encoding="utf-8")
+    for its_name in PAGES:
+        its_page = DOCS / f"{its_name}.md"
+        its_page.write_text(with_collected(its_name, its_page.read_text(encoding="utf-8")), encoding="utf-8")
+    for its_name, its_text in equation_pages().items():
+        (DOCS / "theory" / its_name).write_text(its_text, encoding="utf-8")

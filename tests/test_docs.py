@@ -1,22 +1,31 @@
 """README and docs keep to what is there: links, paths, commands, names, verdicts, codes, equations and examples."""
 
+import csv
 import inspect
 import re
+import shlex
+import tomllib
 from importlib import import_module
 from pathlib import Path
 
+import click
 import pytest
 
 from fatigue.pipeline.count.block import TIERS
 from fatigue.spectrum import trust
-from tests import problem_codes, reference
+from tests import reference
+from tests.command_line import fatigue
+from tests.equations import equation_pages
 from tests.small_case import small_case
 
 ROOT = Path(__file__).parents[1]
-PAGES = [ROOT / name for name in ("README.md", "CHANGELOG.md", "CONTRIBUTING.md")] + sorted(ROOT.glob("docs/*.md"))
+PAGES = [ROOT / name for name in ("README.md", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md")] + sorted(
+    ROOT.glob("docs/**/*.md")
+)
 ELSEWHERE = {"--help", "--count", "--seed"}  # of every command; of `python -m tests.fuzz`
 ELSEWHERE |= {"--rooms", "--sample", "--first", "--tree", "--near", "--at"}  # of `python -m tests.mutation`
 ELSEWHERE |= {"--host", "--protocol"}  # of dask
+NEEDS = re.compile(r"# needs: (a SLURM cluster)\n")  # what no test machine has: the only blocks that do not run
 THEORY, NOTATION = ROOT / "docs" / "how-it-works.md", ROOT / "docs" / "notation.md"
 
 each_page = pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
@@ -52,7 +61,11 @@ def found(name):
 def test_links_lead_somewhere(page):
     """Every link is a file or folder of the project, and its heading is there."""
     links = re.findall(r"\]\(([^)\s]+)\)", read(page))
-    assert links or page.name == "CHANGELOG.md"
+    assert (
+        links
+        or page.name == "CHANGELOG.md"
+        or page.relative_to(ROOT / "docs").with_suffix("").as_posix() in reference.PAGES
+    )
     for link in links:
         name, _, heading = link.partition("#")
         target = (page.parent / name).resolve() if name else page
@@ -102,32 +115,88 @@ def test_examples_run(page, tmp_path, monkeypatch):
         monkeypatch.chdir(tmp_path)
     names = {}
     for block in blocks:
+        if NEEDS.match(block):
+            continue
         exec(compile(block, page.name, "exec"), names)
 
 
-def test_readme_leads_to_every_page():
-    """Nothing of the docs is hidden."""
-    readme = read(PAGES[0])
-    pages = [page.relative_to(ROOT).as_posix() for page in PAGES[1:]]
-    assert not [page for page in pages if f"({page})" not in readme]
+@each_page
+def test_toml_and_csv_can_be_read(page):
+    """What stands under ``toml`` is TOML; what stands under ``csv`` has as many fields in each row."""
+    for block in blocks_of("toml", page):
+        tomllib.loads(block)
+    for block in blocks_of("csv", page):
+        assert len({len(row) for row in csv.reader(block.splitlines()) if row}) == 1
 
 
-def test_readme_lists_every_command():
-    """A command that is not in the table of the README is not found."""
-    assert not [name for name in reference.commands() if f"| `fatigue {name}".rstrip() not in read(PAGES[0])]
+@each_page
+def test_commands_can_be_given(page):
+    """Each line of ``bash`` that calls the program has options that the program takes.
+
+    Paths are those of the reader, so that the commands are not run; those of the walk through the example are.
+    """
+    for words in command_lines(page):
+        given, command = words[1:], reference.commands()[""]
+        while isinstance(command, click.Group):
+            given = [word for word in given if word not in ("-q", "-v")]
+            if not given or given[0].startswith("-"):
+                break
+            command = command.commands[given.pop(0)]
+        parser = command.make_parser(click.Context(command, info_name=command.name))
+        parser.parse_args(args=[word for word in given if word not in ("-h", "--help", "--version")])
 
 
-def test_reference_is_that_of_the_program():
-    """Commands, options, columns and codes; ``python -m tests.reference`` writes them again."""
-    page = read(reference.PAGE)
-    assert page == reference.with_collected(page)
+def test_example_of_the_first_page_runs(tmp_path):
+    """The ten minutes with the example, word for word; nothing of it is refused."""
+    for words in command_lines(ROOT / "docs" / "start" / "example.md"):
+        done = fatigue(*words[1:], cwd=tmp_path)
+        assert done.returncode in (0, 1), (words, done.stderr)  # 1: done, a target is missed
 
 
-def test_every_warning_has_its_meaning():
-    """A code that is told as a warning stands in a table with what it says and what to do."""
-    told = reference.warnings_told(read(reference.PAGE))
-    assert not told - set(problem_codes.codes())
-    assert not problem_codes.codes_of_warnings() - told
+def blocks_of(language, page):
+    """Blocks of a language on a page."""
+    return re.findall(rf"^```{language}\n(.*?)^```", read(page), re.MULTILINE | re.DOTALL)
+
+
+def command_lines(page):
+    """Words of every call of the program under ``bash``, continued lines joined."""
+    for block in blocks_of("bash", page):
+        for line in block.replace("\\\n", " ").splitlines():
+            for part in re.split(r"&&|\|(?!\|)|;", line):
+                words = shlex.split(part, comments=True)
+                if words[:1] == ["fatigue"]:
+                    yield words[: next((k for k, word in enumerate(words) if word in (">", "&", "2>")), None)]
+
+
+def test_every_page_is_reached_by_links():
+    """Nothing is hidden from a reader of the files: from the README, link by link, to every page."""
+    reached, to_read = set(), [PAGES[0]]
+    while to_read:
+        page = to_read.pop()
+        if page not in reached:
+            reached.add(page)
+            links = (link.partition("#")[0] for link in re.findall(r"\]\(([^)\s]+)\)", read(page)))
+            to_read += [(page.parent / name).resolve() for name in links if name.endswith(".md")]
+    assert not set(PAGES) - reached
+
+
+def test_commands_at_a_glance_are_all():
+    """A command that is not in the table is not found."""
+    page = read(ROOT / "docs" / "how-to" / "commands.md")
+    assert not [name for name in reference.commands() if f"| `fatigue {name}".rstrip() not in page]
+
+
+@pytest.mark.parametrize("name", reference.PAGES)
+def test_reference_is_that_of_the_program(name):
+    """Commands, options, keys, columns, curves, codes and names; ``python -m tests.reference`` writes them again."""
+    page = read(reference.DOCS / f"{name}.md")
+    assert page == reference.with_collected(name, page)
+
+
+def test_pages_of_equations_are_those_of_the_method():
+    """Each equation has its page with source and place, and no page is left of one that is gone."""
+    pages = {path.name: read(path) for path in sorted((reference.DOCS / "theory").glob("*.md"))}
+    assert pages == equation_pages()
 
 
 def test_the_house_is_drawn_as_it_is():

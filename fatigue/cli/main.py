@@ -24,7 +24,7 @@ Exit codes: 0 done; 1 done, but a target is missed; 2 wrong usage;
 SECTIONS = {
     "Begin": ("example", "schema", "request", "convert", "welds", "tension-patch", "reduce", "synth"),
     "Assess": ("check", "assess", "show", "report", "verify"),
-    "Understand": ("diagnose", "point", "history", "spectra", "ride", "basis", "shift"),
+    "Understand": ("explain", "diagnose", "point", "history", "spectra", "ride", "basis", "shift"),
     "Decide": ("compare", "whatif", "backsolve", "fleet", "bench"),
     "Measure and study": ("channels", "gauges", "study"),
 }
