@@ -41,7 +41,7 @@ SECTIONS = {  # page of a section, and its pages in the order of reading
         *("requests", "nastran", "ansys", "abaqus", "adams", "simpack", "other-simulations", "recordings"),
         *("modal-basis", "reduce", "lines-by-coordinates", "unit-loads", "offsets", "stress-points", "solid-welds"),
         *("root-and-throat", "endurance", "curves", "how-to/knee-and-thickness", "sequences", "shear", "life-band"),
-        *("results", "how-to/other-tools", "point", "load-spectra", "resonance", "ride", "shift"),
+        *("results", "report", "how-to/other-tools", "point", "load-spectra", "resonance", "ride", "shift"),
         *("compare", "whatif", "backsolve", "fleet", "bench", "study", "vehicle", "gauges", "correlation"),
         *("large-models", "how-to/cluster"),
     ),
@@ -55,7 +55,7 @@ SECTIONS = {  # page of a section, and its pages in the order of reading
         *("reference/warnings-of-commands", "reference/errors", "reference/python"),
     ),
     "docs/theory": ("how-it-works", *(f"theory/eq-{n:02d}" for n in range(1, 24))),
-    "docs/verification": ("verification/known-values", "verification/joint-tests"),
+    "docs/verification": ("verification/known-values", "verification/joint-tests", "ledger"),
     "docs/quality": ("quality/validation", "quality/citing", "../CHANGELOG", "../CONTRIBUTING", "../SECURITY"),
 }
 

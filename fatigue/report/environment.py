@@ -44,7 +44,7 @@ def environment(*rooms: str, language: Language = ENGLISH) -> jinja2.Environment
         """Style sheet or script of the page, as it is."""
         return Markup(loader.get_source(made, name)[0])
 
-    made.globals |= {"source": source, "t": language, "language": language.code}
+    made.globals |= {"source": source, "t": language, "language": language.tag}
     return made
 
 

@@ -14,9 +14,9 @@ _HOLE = re.compile(r"\\{\\}")
 
 @dataclass(frozen=True, slots=True)
 class Language:
-    """A language: its ``code`` as HTML has it, its words by the English ones, and patterns for composed texts."""
+    """A language: its ``tag`` as HTML has it, its words by the English ones, and patterns for composed texts."""
 
-    code: str
+    tag: str
     words: Mapping[str, str] = field(default_factory=dict)
     patterns: tuple[tuple[re.Pattern[str], str], ...] = ()
 

@@ -44,7 +44,7 @@ def test_all_a_template_may_hold(look):
     """Logo, language, colours and texts; the files it is made of are told by their hashes."""
     found = look(BRAND, 'logo = "logo.svg"\nlanguage = "de"\n[colours]\naccent = "#003366"\n[texts]\nfoot = "Geheim"\n')
     assert found.logo.startswith("data:image/svg+xml")
-    assert found.language.code == "de"
+    assert found.language.tag == "de"
     assert found.colours == {"accent": "#003366"}
     assert found.texts == {"foot": "Geheim"}
     assert sorted(found.files) == ["logo", "template"]
@@ -55,7 +55,7 @@ def test_the_case_comes_before_its_template(look):
     """Logo and language of the case."""
     found = look(f'{BRAND}\nlogo = "own.png"\nlanguage = "en"', 'logo = "logo.svg"\nlanguage = "de"')
     assert found.logo.startswith("data:image/png")
-    assert found.language.code == "en"
+    assert found.language.tag == "en"
 
 
 @pytest.mark.parametrize(

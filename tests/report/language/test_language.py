@@ -77,7 +77,7 @@ def test_a_page_in_german(result_folder, monkeypatch):
     def noted(self, english):
         """The text, and a note where there is none."""
         found = find(self, english)
-        if found is None and self.code == "de":
+        if found is None and self.tag == "de":
             missed.add(english)
         return found
 
