@@ -50,12 +50,13 @@ def damages(S_m: Floats, S_b: Floats, q: Floats, rule: CycleRule) -> tuple[Float
 def test_what_cancels_is_counted_as_well_as_double_precision_can(
     decades: float, slope: float, amplitude: float, seed: int
 ) -> None:
-    """Up to modes 1e13 times what they leave, on both sides of every limit: 1e-6, and what rounding does to ranges."""
+    """Up to modes 1e13 times what they leave, on both sides of every limit: what rounding does to ranges."""
     S_m, S_b, q = opposed(np.random.default_rng(seed), 10.0**decades)
     law = damage_law(user_curve("class", (slope,), (), 90.0, "structural", "test"), None, "none", 1e7)
     fast, exact = damages(S_m, S_b, amplitude * q, CycleRule(law, uses_bending_ratio=True))
     # the difference of two stresses of four terms each: a share of the ranges, which are 1 to 8 times what is left
-    np.testing.assert_allclose(fast, exact, rtol=1e-6 + 64.0 * slope * UNIT * 10.0**decades)
+    # in double precision; in single precision a range is within 4e-7, and its power within slope times that
+    np.testing.assert_allclose(fast, exact, rtol=max(1e-6, 5e-7 * slope) + 64.0 * slope * UNIT * 10.0**decades)
 
 
 @pytest.mark.parametrize("slope", [3.0, 5.0, 12.0])
