@@ -119,7 +119,7 @@ def assess(
         point with the largest estimate counted
     histogram : of which counted points ``histogram.parquet`` has the ranges: ``worst``, those that are the worst of
         their weld or use up a tenth of the damage limit; ``all``; ``none``, and there is no such table
-    precision : of counting: ``auto``, single precision for jobs of more than 1e7 stress samples, within 1e-6 of the
+    precision : of counting: ``auto``, single precision for jobs of more than 3e7 stress samples, within 1e-6 of the
         damage; ``double`` for all
     strict : take unknown columns in the tables for errors
     require_verified : refuse a case that rests on an S-N curve of the status ``unverified``

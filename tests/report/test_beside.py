@@ -14,8 +14,9 @@ from fatigue.cli import cli
 from fatigue.report.files.workbook.book import write_xlsx
 from fatigue.report.files.workbook.sheet import heading, leading
 from fatigue.report.page import report_page
-from fatigue.report.wording import life, number
+from fatigue.report.wording import life
 from fatigue.results import TABLES, read_table
+from fatigue.shown.digits import results
 from tests.checks_case import write_checks_case
 from tests.older_result import without_hashes
 from tests.report.reading import Page, cells_of
@@ -65,7 +66,7 @@ def test_welds_whose_verdict_changes_are_on_page_one(checked, checked_page):
         of_weld = found[found["weld"] == row[0]].set_index("variant")
         for name, variant in (("mean − 3σ", "survival_3sigma"), ("damage limit 0.5", "damage_limit_0.5")):
             cell, entry = row[head.index(name)], of_weld.loc[variant]
-            assert cell.endswith(number(entry["utilisation"]))
+            assert cell.endswith(results([entry["utilisation"]])[0])
             assert cell.startswith("✕") == entry["flips"]
     assert "No weld's verdict changes under: " in checked_page.words
 
@@ -94,7 +95,7 @@ def test_checks_are_on_the_page_with_their_worst_place(checked, checked_page):
     toes = checks[checks["check"] != "endurance"]
     worst = toes.groupby(keys, dropna=False)["utilisation_stress"].max()
     assert len(checked_page.tables["checks"]) - 1 == len(worst)
-    assert {row[3] for row in checked_page.tables["checks"][1:]} == {number(value) for value in worst}
+    assert {row[3] for row in checked_page.tables["checks"][1:]} == {*results(list(worst))}
     assert "Not met : B: root" in checked_page.words
     assert "these decide verdict and exit code: throat, across" in checked_page.words
     assert "root" in {row[0] for row in checked_page.tables["weld-1-checks"]}
@@ -132,7 +133,9 @@ def test_all_models_of_shear_stand_side_by_side(checked, checked_page):
     largest = nodes[list(columns.values())].max(axis=1)
     for row in rows:
         point = nodes.loc[largest[nodes["weld"] == row[0]].idxmax()]
-        assert [row[head.index(name)] for name in columns] == [number(point[column]) for column in columns.values()]
+        assert [row[head.index(name)] for name in columns] == [
+            results([point[column]])[0] for column in columns.values()
+        ]
     assert "Length and moment are not examined where a bound settles a point" in checked_page.words
 
 
@@ -155,7 +158,7 @@ def test_a_result_without_the_table_is_shown_all_the_same(plain, tmp_path):
     (folder / "sensitivity.parquet").unlink()
     assert "other assumptions (" not in shown(folder)
     assert json.loads(shown(folder, "--json"))["sensitivity"] is None
-    assert "Verdict under other assumptions" not in Page(report_page(folder)).words
+    assert "when one assumption is changed" not in Page(report_page(folder)).words
 
 
 def test_sensitivity_and_checks_are_sheets_of_the_workbook(checked, tmp_path, monkeypatch):

@@ -76,7 +76,7 @@ def check(options: dict[str, bool], case_file: Path, strict: bool, as_json: bool
     type=click.Choice(("auto", "double")),
     default="auto",
     show_default=True,
-    help="Of counting: single precision for jobs of more than 1e7 stress samples, within 1e-6 of the damage; or double "
+    help="Of counting: single precision for jobs of more than 3e7 stress samples, within 1e-6 of the damage; or double "
     "for all.",
 )
 @click.option("--scheduler", metavar="ADDRESS", help="Use the workers of a dask cluster (package `distributed`).")

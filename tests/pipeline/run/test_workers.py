@@ -69,6 +69,6 @@ def test_what_came_back_before_a_failure_is_kept(tmp_path, many_welds):
 def test_a_worker_with_other_files_is_found_out(tmp_path, monkeypatch):
     """Inputs that differ where the worker is give no numbers but a refusal."""
     case = small_case(seconds=13.0).write(tmp_path / "case")  # no worker has opened it yet
-    monkeypatch.setattr("fatigue.pipeline.run.orders.key_of", lambda inputs, counted: "another")
+    monkeypatch.setattr("fatigue.pipeline.run.orders.key_of", lambda case, inputs, options: "another")
     with pytest.raises(DataError, match=r"case\.toml: a worker sees other input files or other versions of packages"):
         assess(load_case(case), tmp_path / "result", executor=Inline(), report=False)

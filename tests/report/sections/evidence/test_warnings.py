@@ -1,15 +1,11 @@
 """Warnings by what the reader has to do: every one has its group, and its code stands beside it."""
 
-import re
 import tomllib
 from importlib.resources import files
-from pathlib import Path
 
+from fatigue.explain import all_codes
 from fatigue.report.sections.evidence import warnings
 from fatigue.report.sections.evidence.warnings import UNKNOWN, group_of_code, grouped
-from tests.reference import warnings_told
-
-REFERENCE = Path(__file__).parents[4] / "docs" / "reference.md"
 
 
 def a_warning(code, where="W1", **more):
@@ -18,16 +14,15 @@ def a_warning(code, where="W1", **more):
 
 
 def test_every_warning_of_a_result_has_its_group():
-    """All that docs/reference.md lists under warnings of a result; and no code stands in two groups."""
-    text = REFERENCE.read_text(encoding="utf-8")
-    part = text[text.index("## Warnings of a result\n") : text.index("## Warnings of other commands\n")]
-    listed = set(re.findall(r"^\| `([a-z_]+)` \|", part, re.MULTILINE))
-    assert len(listed) > 60
-    assert listed <= set(group_of_code())
+    """All that ``fatigue explain`` knows as warnings of a result; and no code stands in two groups."""
+    pages = all_codes().values()
+    of_results = {page.code for page in pages if page.kind == "warning of a result"}
+    assert len(of_results) > 60
+    assert of_results <= set(group_of_code())
     tables = tomllib.loads((files("fatigue.report.sections.evidence") / "warning_groups.toml").read_text("utf-8"))
     codes = [code for table in tables.values() for code in table["codes"]]
     assert len(codes) == len(set(codes))
-    assert set(codes) <= warnings_told(text)
+    assert set(codes) <= {page.code for page in pages if page.kind != "refusal"}
 
 
 def test_groups_and_their_order():
