@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from fatigue.report.result import ShownResult
-from fatigue.report.sections.cells import Heading, PageTable, integer, num, text, verdict
+from fatigue.report.sections.cells import Heading, PageTable, given, integer, text, verdict
 from fatigue.report.sections.curves import marked
 from fatigue.report.sections.tables import EVENT, FACE, LIFE, LIFE_COLUMNS, WELD
 from fatigue.report.wording import whole
@@ -49,7 +49,7 @@ def on_paper(result: ShownResult, unverified: Collection[str]) -> OnPaper:
             *(cell(getattr(row, name)) for name, cell in LIFE_COLUMNS.items()),
             integer(row.worst_node),
             text(row.worst_surface),
-            num(row.worst_arc_length_mm),
+            given(row.worst_arc_length_mm),
             text(row.governing_event),
             text(row.curve),
         )
